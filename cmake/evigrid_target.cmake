@@ -1,0 +1,16 @@
+# What every target of ours shares: C++20, baseline x86-64 (no -march), no contraction of a*b+c into fma (equal bits),
+# warnings private to us, sanitizers from one option.
+find_package(Threads REQUIRED)
+
+function(evigrid_target target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
+    $<$<BOOL:${EVIGRID_WERROR}>:-Werror>)
+  target_link_libraries(${target} PRIVATE Threads::Threads)
+  if(EVIGRID_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${EVIGRID_SANITIZE} -fno-omit-frame-pointer
+      -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${EVIGRID_SANITIZE})
+  endif()
+endfunction()

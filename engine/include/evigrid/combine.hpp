@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Batched combination over arrays: n independent cells, A ⊕= B and A ⊕ B → C, for every rule, in float (all kernels)
+// and in double (scalar). Arrays are planes: e[i], o[i], u[i] are the masses of cell i and add up to 1.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "evigrid/executor.hpp"
+#include "evigrid/types.hpp"
+
+namespace evigrid {
+
+template <class T>
+struct Planes {
+  T* e = nullptr;
+  T* o = nullptr;
+  T* u = nullptr;
+};
+
+/// C = A ⊕ B; C may be A (in place). `conflict` (may be null) receives k of each pair. Without an executor it runs on the
+/// calling thread. Returns how many pairs were in total conflict: Dempster answers those with the vacuous mass.
+/// No floor is applied: exact inputs give the exact rule. Throws std::invalid_argument for a kernel that cannot run.
+std::uint64_t combine(Rule, Planes<const float> a, Planes<const float> b, Planes<float> c, float* conflict,
+                      std::size_t n, Kernel = Kernel::automatic, Executor* = nullptr);
+std::uint64_t combine(Rule, Planes<const double> a, Planes<const double> b, Planes<double> c, double* conflict,
+                      std::size_t n, Executor* = nullptr);
+
+/// Kernels compiled in that this processor can run, widest last; and the one `automatic` takes.
+std::string_view resolve_kernel_name(Kernel);
+bool kernel_available(Kernel) noexcept;
+
+}  // namespace evigrid

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything a robot includes.
+#pragma once
+#include "evigrid/combine.hpp"
+#include "evigrid/executor.hpp"
+#include "evigrid/map.hpp"
+#include "evigrid/scan.hpp"
+#include "evigrid/sensor.hpp"
+#include "evigrid/types.hpp"
+#include "evigrid/version.hpp"

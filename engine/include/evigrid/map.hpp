@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The evidential occupancy grid: sparse, tiled, without borders. One writer; const members may run together but never
+// beside integrate(), clear() or add(). Never prints, aborts, or changes a process-wide setting.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "evigrid/executor.hpp"
+#include "evigrid/scan.hpp"
+#include "evigrid/sensor.hpp"
+#include "evigrid/types.hpp"
+
+namespace evigrid {
+
+struct MapParams {
+  double cell_m = 0.05;                              ///< side of a cell
+  Rule rule = Rule::pcr5;                            ///< combination rule of the whole map
+  Kernel kernel = Kernel::automatic;                 ///< which kernels run
+  bool keep_conflict = true;                         ///< a plane with the running sum of k
+  std::size_t memory_cap_bytes = std::size_t{4} << 30;  ///< of the tiles; integrate() throws std::length_error beyond it
+};
+[[nodiscard]] std::vector<ParamError> check(const MapParams&);
+
+class Map {
+ public:
+  /// Throws std::invalid_argument naming every bad field, or when the kernel asked for cannot run on this processor.
+  /// Without an executor the map runs on TBB with all threads.
+  explicit Map(const MapParams& = {}, std::shared_ptr<Executor> = nullptr);
+  ~Map();
+  Map(Map&&) noexcept;
+  Map& operator=(Map&&) noexcept;
+
+  /// Declares a sensor. Throws std::invalid_argument naming every bad field.
+  SensorId add(const Sensor&);
+
+  /// Fuses scans in the order given. A scan that cannot be used is counted in the report; no cell is half updated.
+  Report integrate(const Scan&);
+  Report integrate(std::span<const Scan>);
+
+  [[nodiscard]] Mass mass(CellIndex) const noexcept;       ///< vacuous where nothing was seen
+  [[nodiscard]] float conflict(CellIndex) const noexcept;  ///< running sum of k, 0 without the plane
+  [[nodiscard]] CellIndex cell_at(double x_m, double y_m) const noexcept;
+
+  /// Smallest box around all non-vacuous cells.
+  [[nodiscard]] CellRect bounds() const;
+  /// Writes rect row by row, smallest y first, into out; row r starts at out[r·stride]. stride counts floats.
+  /// Throws std::invalid_argument when out is too short.
+  void render(Layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) const;
+
+  /// Hash of (index, bits of e, o, u) of the non-vacuous cells in row-major order; independent of tiles and threads.
+  [[nodiscard]] std::uint64_t hash() const;
+
+  void clear();
+  [[nodiscard]] const MapParams& params() const noexcept;
+  [[nodiscard]] std::span<const Sensor> sensors() const noexcept;
+  [[nodiscard]] std::string_view kernel_name() const noexcept;     ///< what really runs: "scalar", "avx2", "avx512"
+  [[nodiscard]] std::string_view executor_name() const noexcept;
+  [[nodiscard]] std::span<const std::uint64_t> tiles_per_worker() const noexcept;  ///< tile tasks each worker ran
+  [[nodiscard]] std::size_t tiles() const noexcept;
+  [[nodiscard]] std::size_t memory_bytes() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace evigrid

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sensor is declared once: its model with parameters, its mount, aperture, limits and reliability. A sonar is one
+// cone; a laser scanner is one sensor with many beams. Every field, its unit, range and source: engine/src/params/.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "evigrid/types.hpp"
+
+namespace evigrid {
+
+/// hughes1992 (Hughes & Murphy 1992). Distances are linear in (Rmax − d).
+struct Hughes1992 {
+  double r_max_m = 7.62;        ///< range at which belief has fallen to its angular part
+  double max_occupied = 0.98;   ///< largest m(occupied)
+  double tolerance_m = 0.15;    ///< half width of the occupied arc (ours: the paper gives none)
+};
+
+/// li2014 (Li, Huang, Wang, Dezert 2014, eq. 8–13).
+struct Li2014 {
+  double rho_e = 0.35, rho_o = 0.1, rho_c = 80, rho_i = 10;  ///< dimensionless, of metres
+  double epsilon_ratio = 0.01;  ///< range error ε as a fraction of R
+};
+
+/// beam: laser range finder (ours).
+struct Beam {
+  double empty = 0.6, occupied = 0.8;      ///< masses at d = 0; both fall linearly to half at max_range_m
+  double empty_margin_m = 0.15;            ///< empty where d < R − empty_margin_m
+  double occupied_half_width_m = 0.10;     ///< occupied where |d − R| ≤ this
+};
+
+struct Sensor {
+  Model model = Model::li2014;
+  Pose2 T_robot_sensor{};           ///< mount; a cone looks along its x axis
+  double aperture_rad = 0.4363323;  ///< full opening of a cone (25°); unused by a fan
+  double min_range_m = 0.1;         ///< nearer readings are refused and nearer cells are left alone
+  double max_range_m = 5.0;         ///< cone: farther readings are refused. fan: they clear up to it
+  double no_return_m = 1000.0;      ///< readings at or above it mean "no echo": refused, or cleared on request
+  bool clear_no_return = false;     ///< "no echo" clears up to max_range_m (fans only)
+  double reliability = 1.0;         ///< Shafer discount of every reading, in (0, 1]
+  int beams = 1;                    ///< number of ranges in one reading; > 1 only for a fan
+  double first_beam_rad = 0;        ///< bearing of beam 0 in S, counter-clockwise
+  double beam_step_rad = 0;         ///< bearing from one beam to the next
+  Hughes1992 hughes{};
+  Li2014 li{};
+  Beam beam{};
+};
+
+using SensorId = std::uint32_t;
+
+struct ParamError {
+  std::string field;   ///< e.g. "sensor.aperture_rad"
+  std::string reason;  ///< e.g. "is 0, must be within [0.0087, 0.7] rad"
+};
+
+/// Empty when the sensor is valid; every bad field otherwise.
+[[nodiscard]] std::vector<ParamError> check(const Sensor&);
+
+/// Masses of one reading at one point of its cone or on its beam, from the same functions that the map runs.
+struct ModelMass {
+  double e = 0, o = 0, u = 1, c = 0;  ///< c = m(empty ∩ occupied), the paradoxical mass of li2014
+};
+/// @param range_m reading; @param distance_m, theta_rad the point, from the sensor and off its axis.
+/// Outside the support of the model the answer is vacuous. Throws std::invalid_argument for a bad sensor.
+[[nodiscard]] ModelMass evaluate(const Sensor&, double range_m, double distance_m, double theta_rad);
+
+}  // namespace evigrid
