@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// "One number" of a SIMD table: U vectors side by side, so that the long chains of a cell's polynomials and divisions
+// interleave. Included by exactly one table_*.cpp per target, after HWY_TARGET is set; the namespace is the target's own,
+// so the linker can never merge two targets' code.
+#pragma once
+#include <cstdint>
+
+#include "hwy/highway.h"
+
+#define EVIGRID_FN HWY_INLINE
+#define EVIGRID_CELL_BEGIN    \
+  HWY_BEFORE_NAMESPACE();     \
+  namespace evigrid::kernels { \
+  namespace EVIGRID_TARGET_NAMESPACE {
+#define EVIGRID_CELL_END \
+  }                      \
+  }                      \
+  HWY_AFTER_NAMESPACE();
+
+EVIGRID_CELL_BEGIN
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::ScalableTag<float>;
+using Vec = hn::Vec<Tag>;
+using VecMask = hn::Mask<Tag>;
+inline constexpr int kVecLanes = HWY_LANES(float);
+inline constexpr int kUnroll = EVIGRID_TARGET_UNROLL;
+
+struct PackMask {
+  VecMask v[kUnroll];
+};
+
+struct Pack {
+  Vec v[kUnroll];
+  Pack() = default;
+  HWY_INLINE explicit Pack(float c) {
+    for (int i = 0; i < kUnroll; ++i) v[i] = hn::Set(Tag(), c);
+  }
+};
+
+#define EVIGRID_BINARY(op, expr)                                            \
+  HWY_INLINE Pack op(const Pack& a, const Pack& b) {                        \
+    Pack r;                                                                 \
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = expr(a.v[i], b.v[i]);        \
+    return r;                                                               \
+  }
+#define EVIGRID_COMPARE(op, expr)                                           \
+  HWY_INLINE PackMask op(const Pack& a, const Pack& b) {                    \
+    PackMask r;                                                             \
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = expr(a.v[i], b.v[i]);        \
+    return r;                                                               \
+  }
+#define EVIGRID_MASK(op, expr)                                              \
+  HWY_INLINE PackMask op(const PackMask& a, const PackMask& b) {            \
+    PackMask r;                                                             \
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = expr(a.v[i], b.v[i]);        \
+    return r;                                                               \
+  }
+EVIGRID_BINARY(operator+, hn::Add)
+EVIGRID_BINARY(operator-, hn::Sub)
+EVIGRID_BINARY(operator*, hn::Mul)
+EVIGRID_BINARY(operator/, hn::Div)
+EVIGRID_COMPARE(operator>=, hn::Ge)
+EVIGRID_COMPARE(operator<=, hn::Le)
+EVIGRID_COMPARE(operator<, hn::Lt)
+EVIGRID_COMPARE(operator>, hn::Gt)
+EVIGRID_MASK(both, hn::And)
+EVIGRID_MASK(either, hn::Or)
+#undef EVIGRID_BINARY
+#undef EVIGRID_COMPARE
+#undef EVIGRID_MASK
+
+HWY_INLINE Pack mul_add(const Pack& a, const Pack& b, const Pack& c) {
+  Pack r;
+  for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::MulAdd(a.v[i], b.v[i], c.v[i]);
+  return r;
+}
+HWY_INLINE Pack neg_mul_add(const Pack& a, const Pack& b, const Pack& c) {
+  Pack r;
+  for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::NegMulAdd(a.v[i], b.v[i], c.v[i]);
+  return r;
+}
+HWY_INLINE Pack root(const Pack& a) {
+  Pack r;
+  for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Sqrt(a.v[i]);
+  return r;
+}
+HWY_INLINE Pack select(const PackMask& m, const Pack& a, const Pack& b) {
+  Pack r;
+  for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::IfThenElse(m.v[i], a.v[i], b.v[i]);
+  return r;
+}
+/// As the scalar a > b ? a : b; no operand is ever NaN and no result depends on the sign of a zero.
+HWY_INLINE Pack max_of(const Pack& a, const Pack& b) {
+  Pack r;
+  for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Max(a.v[i], b.v[i]);
+  return r;
+}
+HWY_INLINE Pack min_of(const Pack& a, const Pack& b) {
+  Pack r;
+  for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Min(a.v[i], b.v[i]);
+  return r;
+}
+HWY_INLINE Pack scale_by_magic(const Pack& p, const Pack& magic) {
+  const hn::RebindToUnsigned<Tag> du;
+  Pack r;
+  for (int i = 0; i < kUnroll; ++i) {
+    r.v[i] = hn::BitCast(Tag(), hn::Add(hn::BitCast(du, p.v[i]), hn::ShiftLeft<23>(hn::BitCast(du, magic.v[i]))));
+  }
+  return r;
+}
+
+/// How loops step over micro-tiles of 16 cells: kMicros whole ones at a time.
+struct Lanes {
+  using V = Pack;
+  using M = PackMask;
+  static constexpr int kLanes = kVecLanes * kUnroll;
+  static constexpr int kMicros = kLanes / 16;
+  static constexpr int kPerMicro = 16 / kVecLanes;  // vectors in one micro-tile
+  static_assert(kMicros >= 1 && kMicros * 16 == kLanes);
+
+  static HWY_INLINE V load(const float* const* micro, int) {
+    V r;
+    for (int m = 0; m < kMicros; ++m) {
+      for (int p = 0; p < kPerMicro; ++p) r.v[m * kPerMicro + p] = hn::Load(Tag(), micro[m] + p * kVecLanes);
+    }
+    return r;
+  }
+  /// Masked-out lanes keep what they hold.
+  static HWY_INLINE void store(float* const* micro, int, const M& k, const V& v) {
+    for (int m = 0; m < kMicros; ++m) {
+      for (int p = 0; p < kPerMicro; ++p) {
+        const int i = m * kPerMicro + p;
+        float* at = micro[m] + p * kVecLanes;
+        hn::Store(hn::IfThenElse(k.v[i], v.v[i], hn::Load(Tag(), at)), Tag(), at);
+      }
+    }
+  }
+  static HWY_INLINE V load_flat(const float* p) {
+    V r;
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::LoadU(Tag(), p + i * kVecLanes);
+    return r;
+  }
+  static HWY_INLINE void store_flat(float* p, const V& v) {
+    for (int i = 0; i < kUnroll; ++i) hn::StoreU(v.v[i], Tag(), p + i * kVecLanes);
+  }
+  static HWY_INLINE int count(const M& m) {
+    std::size_t n = 0;
+    for (int i = 0; i < kUnroll; ++i) n += hn::CountTrue(Tag(), m.v[i]);
+    return static_cast<int>(n);
+  }
+  static HWY_INLINE std::uint64_t bits(const M& m) {
+    std::uint64_t all = 0;
+    for (int i = 0; i < kUnroll; ++i) {
+      std::uint8_t raw[8] = {};
+      hn::StoreMaskBits(Tag(), m.v[i], raw);
+      const std::uint64_t word = static_cast<std::uint64_t>(raw[0]) | (static_cast<std::uint64_t>(raw[1]) << 8);
+      all |= word << (i * kVecLanes);
+    }
+    return all;
+  }
+  static HWY_INLINE bool any(const M& m) { return bits(m) != 0; }
+  static HWY_INLINE float reduce_max(const V& v) {
+    Vec r = v.v[0];
+    for (int i = 1; i < kUnroll; ++i) r = hn::Max(r, v.v[i]);
+    return hn::GetLane(hn::MaxOfLanes(Tag(), r));
+  }
+  static HWY_INLINE V gather(const float* base, const V& index) {
+    const hn::RebindToSigned<Tag> di;
+    V r;
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::GatherIndex(Tag(), base, hn::ConvertTo(di, index.v[i]));
+    return r;
+  }
+  static HWY_INLINE V floor(const V& x) {
+    V r;
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Floor(x.v[i]);
+    return r;
+  }
+};
+
+EVIGRID_CELL_END

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// One cell and one source of evidence on the frame {empty, occupied}; V is one number (lane_*.hpp). Letters as in
+// docs/maths.md: the cell is (a, b, u), the source (x, y, v) with its paradoxical mass z. A source may be unnormalised:
+// s is the sum of its masses, and every rule is homogeneous in the source, so that the one division at the end does for
+// model and rule together.
+#pragma once
+#include <type_traits>
+
+EVIGRID_CELL_BEGIN
+
+template <class V>
+struct Cell {
+  V a, b, u;  // m(empty), m(occupied), m(unknown)
+};
+
+template <class V>
+struct Source {
+  V x, y, v, z, s;  // m(empty), m(occupied), m(unknown), m(empty ∩ occupied), their sum
+};
+
+/// What one combination gives: the new cell, the conflict k of the two normalised operands, and whether the conflict was
+/// total (only Dempster: the cell is then vacuous, by policy).
+template <class V, class M>
+struct Combined {
+  Cell<V> cell;
+  V k;
+  M total;
+};
+
+/// Numbers of a map: small masses become exact zeros, so that no denormal ever arises and a host that flushes them to
+/// zero gets the same bits. Numbers of `combine`: exact, no floor.
+struct MapState {
+  static constexpr bool kFloors = true;
+  static constexpr float kMassFloor = 1e-12f;
+  static constexpr float kUnknownFloor = 1e-30f;
+  static constexpr float kTotal = 1e-12f;  // e + o + t below this is total conflict
+};
+struct Exact {
+  static constexpr bool kFloors = false;
+  static constexpr float kMassFloor = 0, kUnknownFloor = 0, kTotal = 0;
+};
+
+/// Divisors of zero are replaced by this; their dividends are zero then.
+template <class V>
+EVIGRID_FN V nonzero(const V& d) {
+  return select(d > V(0.0f), d, V(1.0f));
+}
+
+template <class State, class V>
+EVIGRID_FN Cell<V> settle(const Cell<V>& c) {
+  if constexpr (State::kFloors) {
+    const V zero(0.0f), least(State::kMassFloor);
+    return {select(c.a >= least, c.a, zero), select(c.b >= least, c.b, zero), max_of(c.u, V(State::kUnknownFloor))};
+  } else {
+    return c;
+  }
+}
+
+/// The conjunctive part; the order of additions makes it commutative and mirror-symmetric bit for bit.
+template <class V>
+struct Conjunctive {
+  V e, o, t, k;
+};
+template <class V>
+EVIGRID_FN Conjunctive<V> conjunctive(const Cell<V>& c, const Source<V>& m) {
+  return {c.a * m.x + (c.a * m.v + c.u * m.x), c.b * m.y + (c.b * m.v + c.u * m.y), c.u * m.v, c.a * m.y + c.b * m.x};
+}
+
+/// Shafer's discount: every mass times `reliability`, the rest becomes unknown.
+template <class V>
+EVIGRID_FN Source<V> discount(const Source<V>& m, const V& reliability) {
+  const V x = m.x * reliability, y = m.y * reliability, z = m.z * reliability;
+  return {x, y, mul_add(m.v, reliability, m.s * (V(1.0f) - reliability)), z, m.s};
+}
+
+/// The PCR family gives a source's paradoxical mass back to x and y in proportion, halves if both are 0.
+/// Everything is multiplied through by x + y, so that this costs no division.
+template <class V>
+EVIGRID_FN Source<V> give_back(const Source<V>& m) {
+  const V p = m.x + m.y, t = p + m.z, zero(0.0f), half = V(0.5f) * m.z;
+  const auto shared = p > zero;
+  return {select(shared, m.x * t, half), select(shared, m.y * t, half), select(shared, m.v * p, m.v), zero,
+          select(shared, m.s * p, m.s)};
+}
+
+/// Rules without a place for the paradoxical mass drop it.
+template <class V>
+EVIGRID_FN Source<V> drop_paradox(const Source<V>& m) {
+  return {m.x, m.y, m.v, V(0.0f), (m.x + m.y) + m.v};
+}
+
+EVIGRID_CELL_END

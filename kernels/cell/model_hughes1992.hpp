@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// hughes1992 (Hughes & Murphy 1992): f = ½[(Rmax − d)/Rmax + (β − |θ|)/β]; m(empty) = f before the arc, m(occupied) =
+// f·Max_occupied on it. The paper gives the arc no width: `tolerance_m` is ours.
+#pragma once
+
+EVIGRID_CELL_BEGIN
+
+struct ModelHughes1992 {
+  template <class V>
+  static EVIGRID_FN Source<V> measure(const ConeReading& q, const Polar<V>& p) {
+    const V zero(0.0f), one(1.0f);
+    const V d = root(p.d2);
+    const V sine = min_of(p.nl, p.nr) / nonzero(d);  // sine of the angle to the nearer edge, β − |θ|
+    const V angular = sine * cubic(q.hughes.margin, sine * sine);  // (β − |θ|)/(2β)
+    const V f = max_of(min_of(mul_add(d, V(q.hughes.slope), V(0.5f)) + angular, one), zero);
+    const auto on_arc = p.edge >= zero;
+    const V x = select(on_arc, zero, f), y = select(on_arc, f * V(q.hughes.max_occupied), zero);
+    return {x, y, one - (x + y), zero, one};
+  }
+};
+
+EVIGRID_CELL_END

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Polynomials of ours, fitted by Remez; libm's differ between processors. Errors: relative for 2^y, in resulting mass for
+// the logarithm (docs/maths.md states the bound on masses, a test holds it).
+#pragma once
+
+EVIGRID_CELL_BEGIN
+
+/// 2^y for −126 < y < 127, relative error 7.5e-8. The magic constant leaves round(y) in the low bits of the sum.
+template <class V>
+EVIGRID_FN V exp2_poly(const V& y) {
+  const V magic(12582912.0f);
+  const V n = y + magic, f = y - (n - magic);
+  V p = mul_add(V(0.00132764725f), f, V(0.00967554096f));
+  p = mul_add(p, f, V(0.0555071309f));
+  p = mul_add(p, f, V(0.240221202f));
+  p = mul_add(p, f, V(0.693146944f));
+  p = mul_add(p, f, V(1.00000012f));
+  return scale_by_magic(p, n);
+}
+
+/// √(80·log2 e)·ln r for t = r − 1.1 within [−0.463, 0.516]: the exponent of li2014's paradoxical mass at ρC = 80. Beyond
+/// that range the mass is below 5e-7 and the argument is clamped by the caller.
+template <class V>
+EVIGRID_FN V scaled_log(const V& t) {
+  V p = mul_add(V(-0.796964049f), t, V(1.08453441f));
+  p = mul_add(p, t, V(-0.995082259f));
+  p = mul_add(p, t, V(1.28449726f));
+  p = mul_add(p, t, V(-1.83392835f));
+  p = mul_add(p, t, V(2.69364047f));
+  p = mul_add(p, t, V(-4.43947363f));
+  p = mul_add(p, t, V(9.76644707f));
+  return mul_add(p, t, V(1.02393842f));
+}
+
+/// c[0] + c[1]·x + c[2]·x² + c[3]·x³: the fits made once per sensor.
+template <class V>
+EVIGRID_FN V cubic(const float (&c)[4], const V& x) {
+  return mul_add(mul_add(mul_add(V(c[3]), x, V(c[2])), x, V(c[1])), x, V(c[0]));
+}
+
+/// Angle of (x, y) in (−π, π], error below 1e-5 rad: finds a candidate beam, exact tests decide (fan_exact.hpp).
+template <class V>
+EVIGRID_FN V coarse_angle(const V& x, const V& y) {
+  const V zero(0.0f);
+  const V ax = max_of(x, zero - x), ay = max_of(y, zero - y);
+  const V z = min_of(ax, ay) / max_of(max_of(ax, ay), V(1e-6f));
+  const V t = z * z;
+  V p = mul_add(V(-0.01172120f), t, V(0.05265332f));
+  p = mul_add(p, t, V(-0.11643287f));
+  p = mul_add(p, t, V(0.19354346f));
+  p = mul_add(p, t, V(-0.33262347f));
+  p = mul_add(p, t, V(0.99997726f));
+  V a = p * z;
+  a = select(ax < ay, V(1.57079633f) - a, a);
+  a = select(x < zero, V(3.14159265f) - a, a);
+  return select(y < zero, zero - a, a);
+}
+
+EVIGRID_CELL_END

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dempster's rule (Shafer 1976): the conjunctive part divided by its own sum e + o + t, never by 1 − k, whose float error
+// lets Σm leave 1. Total conflict (a sum of 0; in a map below 1e-12) answers with the vacuous mass and is counted.
+#pragma once
+
+EVIGRID_CELL_BEGIN
+
+struct Dempster {
+  template <class State, class V>
+  static EVIGRID_FN auto combine(const Cell<V>& c, const Source<V>& source) {
+    const Source<V> m = drop_paradox(source);
+    const Conjunctive<V> q = conjunctive(c, m);
+    const V sum = (q.e + q.o) + q.t, zero(0.0f), one(1.0f);
+    const auto total = sum <= V(State::kTotal) * m.s;
+    const V all = sum + q.k;  // = m.s up to rounding; one division serves the masses (/ sum) and k (/ all)
+    const V r = one / select(total, one, sum * all);
+    const V w = r * all;
+    const Cell<V> next = settle<State>(Cell<V>{q.e * w, q.o * w, q.t * w});
+    using M = decltype(total);
+    return Combined<V, std::remove_const_t<M>>{
+        {select(total, zero, next.a), select(total, zero, next.b), select(total, one, next.u)},
+        select(total, one, (q.k * sum) * r),
+        total};
+  }
+};
+
+EVIGRID_CELL_END

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Proportional conflict redistribution, two sources (Smarandache & Dezert 2005), and GERM-PCR2 (Li et al. 2014). The
+// quotients are multiplied out, so that each rule costs one division; products of small masses are cut at 1e-16 before
+// they could become denormal (the share they would have had is below 5e-9 of a mass).
+#pragma once
+
+EVIGRID_CELL_BEGIN
+
+/// PCR2: k is shared out in proportion to the columns a+x and b+y. `conflict` is k, for GERM-PCR2 z + k.
+template <class State, class V>
+EVIGRID_FN auto share_by_columns(const Cell<V>& c, const Source<V>& m, const Conjunctive<V>& q, const V& conflict) {
+  const V zero(0.0f);
+  const V as = c.a * m.s + m.x, bs = c.b * m.s + m.y;  // columns
+  const V d = as + bs;
+  const auto none = d <= zero;  // nothing to share by: the conflict goes to unknown
+  const V dd = select(none, V(1.0f), d);
+  const V e = q.e * dd + conflict * as, o = q.o * dd + conflict * bs;
+  const V t = select(none, q.t + conflict, q.t);
+  const V r = V(1.0f) / ((e + o) + t * dd);
+  const V w = dd * r;
+  return Combined<V, decltype(d <= zero)>{settle<State>(Cell<V>{e * r, o * r, t * w}), conflict * w, V(1.0f) < zero};
+}
+
+struct Pcr2 {
+  template <class State, class V>
+  static EVIGRID_FN auto combine(const Cell<V>& c, const Source<V>& source) {
+    const Source<V> m = give_back(source);
+    const Conjunctive<V> q = conjunctive(c, m);
+    return share_by_columns<State>(c, m, q, q.k);
+  }
+};
+
+struct GermPcr2 {
+  template <class State, class V>
+  static EVIGRID_FN auto combine(const Cell<V>& c, const Source<V>& m) {
+    const Conjunctive<V> q = conjunctive(c, m);
+    return share_by_columns<State>(c, m, q, q.k + m.z);
+  }
+};
+
+/// PCR5: each partial conflict a·y and b·x goes back to its own two parties in proportion to what each put in.
+struct Pcr5 {
+  template <class State, class V>
+  static EVIGRID_FN auto combine(const Cell<V>& c, const Source<V>& source) {
+    const V zero(0.0f), cut(State::kFloors ? 1e-16f : 0.0f);
+    const Source<V> m = give_back(source);
+    const Conjunctive<V> q = conjunctive(c, m);
+    const V as = c.a * m.s, bs = c.b * m.s;
+    const V d1 = nonzero(as + m.y), d2 = nonzero(bs + m.x);
+    const V ay = c.a * m.y, bx = c.b * m.x;
+    const V p = select(ay > cut, ay, zero) * d2, w = select(bx > cut, bx, zero) * d1;  // p/(d1·d2) = a·y/(a + y)
+    const V dd = d1 * d2;
+    const V e = q.e * dd + (p * as + w * m.x), o = q.o * dd + (p * m.y + w * bs);
+    const V r = V(1.0f) / ((e + o) + q.t * dd);
+    const V n = dd * r;
+    return Combined<V, decltype(zero < zero)>{settle<State>(Cell<V>{e * r, o * r, q.t * n}), q.k * n, V(1.0f) < zero};
+  }
+};
+
+EVIGRID_CELL_END

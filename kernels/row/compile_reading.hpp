@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a sensor and a reading in metres to what the kernels see: the quantisation of docs/maths.md. What depends on the
+// sensor alone is fitted once (ConeType, FanType).
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "kernels/row/reading.hpp"
+
+namespace evigrid::kernels {
+
+/// Plain numbers of one sensor; metres and radians.
+struct ConeSpec {
+  int model = 1;  // 0 hughes1992, 1 li2014
+  double cell_m, aperture_rad, min_range_m, max_range_m, reliability;
+  double r_max_m, max_occupied, tolerance_m;             // hughes1992
+  double rho_e, rho_o, rho_c, rho_i, epsilon_ratio;      // li2014
+};
+
+struct ConeType {
+  ConeSpec spec{};
+  double lattice = 65536;  // steps per cell
+  float lambda[4], shell[4], margin[4];
+  explicit ConeType(const ConeSpec&);
+};
+
+struct FanSpec {
+  double cell_m, min_range_m, max_range_m, reliability;
+  int beams;
+  double first_beam_rad, beam_step_rad;
+  double empty, occupied, empty_margin_m, half_width_m;
+};
+
+/// A fan and the arrays it points into; move-only in effect (copies would point at the original's arrays).
+struct Fan {
+  FanReading reading;
+  std::vector<float> range, border_x, border_y;
+  double x_min, x_max, y_min, y_max;  // box of what it can touch, cells from the apex
+};
+
+struct SensorPose {
+  double x_m, y_m, yaw_rad;  // frame of the map
+};
+
+/// Steps per cell so that offsets up to `reach_cells` keep 22 bits.
+double lattice_steps(double reach_cells) noexcept;
+
+ConeReading compile_cone(const ConeType&, const SensorPose&, double range_m) noexcept;
+/// ranges: metres; a negative one is a refused beam, one above max_range_m clears up to it.
+void compile_fan(const FanSpec&, const SensorPose&, const float* ranges_m, Fan& out);
+
+}  // namespace evigrid::kernels

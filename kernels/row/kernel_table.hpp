@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that the engine knows of the kernels: plain pointers, chosen once per map. A tile is 64 × 64 cells in 16 × 16
+// micro-tiles of 4 × 4 cells (row-major, both); a micro-tile holds its planes side by side: 16 e, 16 o, 16 u and, where
+// the map keeps it, 16 sums of conflict. 64-byte aligned.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "kernels/row/reading.hpp"
+
+namespace evigrid::kernels {
+
+inline constexpr int kTileSide = 64, kMicroSide = 4, kMicrosPerSide = 16, kMicrosPerTile = 256, kMicroCells = 16;
+inline constexpr int kRules = 4;        // dempster, pcr2, pcr5, germ_pcr2: the order of evigrid::Rule
+inline constexpr int kConeModels = 2;   // hughes1992, li2014
+
+struct Stats {
+  std::uint64_t cells = 0;            // updates
+  std::uint64_t total_conflicts = 0;  // answered by policy
+  float max_conflict = 0;
+};
+
+/// One reading on one tile.
+struct TileArgs {
+  float* cells = nullptr;
+  bool conflict_plane = false;
+  float x0 = 0, y0 = 0;                    // offset of the tile's first cell centre from the apex, exact
+  const std::uint8_t* micros = nullptr;    // micro-tiles that may be touched, ascending
+  int micro_count = 0;
+};
+
+/// Masses of one reading on the listed micro-tiles, kept apart from the map: the unfused path.
+struct Measured {
+  alignas(64) float x[4096], y[4096], v[4096], z[4096], s[4096];
+  std::uint16_t inside[256];
+};
+
+struct DensePlanes {
+  const float *ae, *ao, *au, *be, *bo, *bu;
+  float *ce, *co, *cu, *k;  // k may be null
+};
+
+struct KernelTable {
+  std::string_view name;
+  int lanes;  // floats in one vector
+  void (*fuse_cone[kRules][kConeModels])(const TileArgs&, const ConeReading&, Stats&);
+  void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
+  void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
+  void (*combine_measured[kRules])(const TileArgs&, const Measured&, Stats&);
+  std::uint64_t (*dense[kRules])(const DensePlanes&, std::size_t begin, std::size_t end);
+};
+
+/// One point of a cone, by the scalar functions. Arguments as Polar (cells).
+struct PointMass {
+  float x, y, v, z, s;
+};
+PointMass measure_point(int cone_model, const ConeReading&, float nl, float nr, float d2, float edge);
+
+/// The dense combination in double, scalar.
+std::uint64_t dense_double(int rule, const double* const a[3], const double* const b[3], double* const c[3], double* k,
+                           std::size_t begin, std::size_t end);
+
+const KernelTable& scalar_table() noexcept;
+/// By name: "scalar", "avx2", "avx512", "auto" (the widest that can run); nullptr when it cannot run here.
+const KernelTable* find_table(std::string_view name) noexcept;
+
+}  // namespace evigrid::kernels

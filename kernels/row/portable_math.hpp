@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sine, cosine and the few functions that a reading's constants need, in double from + − × ÷ √ and fma alone: libm's
+// results differ between processors, and the map's bits must not. Errors stay below 1e-15 over the ranges used here.
+#pragma once
+
+namespace evigrid::kernels {
+
+struct SinCos {
+  double sin, cos;
+};
+/// Any finite angle, in radians; accurate to 1e-15 up to |angle| = 1e5.
+SinCos portable_sincos(double angle_rad) noexcept;
+/// |x| ≤ 0.8.
+double portable_asin(double x) noexcept;
+/// |x| ≤ 700.
+double portable_exp(double x) noexcept;
+double portable_tanh(double x) noexcept;
+
+}  // namespace evigrid::kernels

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which tables this processor can run.
+#include "hwy/targets.h"
+#include "kernels/row/tables.hpp"
+
+namespace evigrid::kernels {
+
+const KernelTable* find_table(std::string_view name) noexcept {
+  const auto supported = hwy::SupportedTargets();
+  const bool avx2 = (supported & HWY_AVX2) != 0, avx512 = (supported & HWY_AVX3) != 0;
+  if (name == "scalar") return &scalar_table();
+  if (name == "avx2") return avx2 ? &avx2_table() : nullptr;
+  if (name == "avx512") return avx512 ? &avx512_table() : nullptr;
+  if (name == "auto") return avx512 ? &avx512_table() : avx2 ? &avx2_table() : &scalar_table();
+  return nullptr;
+}
+
+}  // namespace evigrid::kernels
