@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gate, footprints, binning; then every tile fuses its readings in their order, tiles in parallel (owner computes). The
+// order of combination is part of the result, so there are no atomics and no reductions on cells, and the map is the same
+// bits for any executor and any number of threads.
+#include "integrate.hpp"
+
+#include "scan/bin.hpp"
+#include "scan/footprint.hpp"
+#include "scan/gate.hpp"
+
+namespace evigrid {
+namespace {
+
+struct Batch {
+  const Pipeline& p;
+  const std::vector<Footprint>& footprints;
+  std::vector<FanReach>& reaches;  // of the fans, by footprint
+  std::vector<TileWork>& work;
+  std::vector<kernels::Stats>& stats;
+};
+
+/// One tile: its readings, in order.
+void fuse_tile(const Batch& b, std::size_t index) {
+  const TileWork& w = b.work[index];
+  const int rule = static_cast<int>(b.p.params.rule);
+  MicroList micros;
+  kernels::TileArgs args;
+  args.cells = w.tile->cells.get();
+  args.conflict_plane = b.p.params.keep_conflict;
+  for (const std::uint32_t i : w.footprints) {
+    const Footprint& f = b.footprints[i];
+    const auto at = [&](const auto& q) {  // the tile as seen from the sensor
+      args.x0 = static_cast<float>(offset(w.tile->index.x, q.i0, q.fx));
+      args.y0 = static_cast<float>(offset(w.tile->index.y, q.j0, q.fy));
+    };
+    if (f.fan) {
+      at(f.fan->reading);
+      select_micros(f.fan->reading, b.reaches[i], args.x0, args.y0, micros);
+    } else {
+      at(f.cone);
+      select_micros(f.cone, args.x0, args.y0, micros);
+    }
+    args.micros = micros.micro.data();
+    args.micro_count = micros.count;
+    if (f.fan) {
+      b.p.table.fuse_fan[rule](args, f.fan->reading, b.stats[index]);
+    } else {
+      b.p.table.fuse_cone[rule][f.cone_model](args, f.cone, b.stats[index]);
+    }
+  }
+}
+
+}  // namespace
+
+Report integrate(const Pipeline& p, std::span<const Scan> scans) {
+  Report report;
+  std::vector<Footprint> footprints;
+  for (const Scan& scan : scans) {  // gate: compile what can be used, count the rest
+    if (scan.stamp_ns < p.last_stamp_ns) ++report.stamps_backwards;
+    p.last_stamp_ns = scan.stamp_ns;
+    gate_scan(scan, p.sensors, p.params.cell_m, footprints, report);
+  }
+  std::vector<FanReach> reaches(footprints.size());
+  for (std::size_t i = 0; i < footprints.size(); ++i) {
+    if (footprints[i].fan) reaches[i].build(*footprints[i].fan);
+  }
+  std::vector<TileWork> work = bin(footprints, p.store);
+  std::vector<kernels::Stats> stats(work.size());
+  Batch batch{p, footprints, reaches, work, stats};
+  p.executor.run(
+      static_cast<std::int64_t>(work.size()),
+      [](void* context, std::int64_t index, int worker) {
+        const Batch& b = *static_cast<const Batch*>(context);
+        fuse_tile(b, static_cast<std::size_t>(index));
+        ++b.p.tiles_per_worker[static_cast<std::size_t>(worker)];
+      },
+      &batch);
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    Report r;
+    r.cells_updated = stats[i].cells;
+    r.total_conflicts = stats[i].total_conflicts;
+    r.max_conflict = stats[i].max_conflict;
+    const TileIndex at = work[i].tile->index;
+    if (stats[i].cells > 0) r.touched = {at.x * kernels::kTileSide, at.y * kernels::kTileSide, kernels::kTileSide, kernels::kTileSide};
+    report += r;
+  }
+  return report;
+}
+
+}  // namespace evigrid

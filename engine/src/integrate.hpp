@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The algorithm box: one batch of scans into the grid.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "evigrid/map.hpp"
+#include "grid/tile_store.hpp"
+#include "scan/compiled.hpp"
+
+namespace evigrid {
+
+struct Pipeline {
+  const MapParams& params;
+  const kernels::KernelTable& table;
+  const std::vector<CompiledSensor>& sensors;
+  TileStore& store;
+  Executor& executor;
+  std::vector<std::uint64_t>& tiles_per_worker;
+  std::int64_t& last_stamp_ns;
+};
+
+Report integrate(const Pipeline&, std::span<const Scan>);
+
+}  // namespace evigrid

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The public face: parameters checked, kernels chosen once, everything else handed on.
+#include "evigrid/map.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "grid/readout.hpp"
+#include "integrate.hpp"
+#include "params/table.hpp"
+
+namespace evigrid {
+
+struct Map::Impl {
+  MapParams params;
+  const kernels::KernelTable* table;
+  std::shared_ptr<Executor> executor;
+  TileStore store;
+  std::vector<CompiledSensor> compiled;
+  std::vector<Sensor> sensors;
+  std::vector<std::uint64_t> tiles_per_worker;
+  std::int64_t last_stamp_ns = std::numeric_limits<std::int64_t>::min();
+
+  Impl(const MapParams& p, std::shared_ptr<Executor> e)
+      : params(p), table(kernels::find_table(name(p.kernel))),
+        executor(e ? std::move(e) : std::shared_ptr<Executor>(make_tbb_executor())),
+        store(p.keep_conflict, p.memory_cap_bytes), tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
+};
+
+Map::Map(const MapParams& params, std::shared_ptr<Executor> executor) {
+  if (const auto errors = check(params); !errors.empty()) throw std::invalid_argument(describe(errors));
+  if (kernels::find_table(name(params.kernel)) == nullptr) {
+    throw std::invalid_argument("map.kernel " + std::string(name(params.kernel)) + " cannot run on this processor");
+  }
+  impl_ = std::make_unique<Impl>(params, std::move(executor));
+}
+Map::~Map() = default;
+Map::Map(Map&&) noexcept = default;
+Map& Map::operator=(Map&&) noexcept = default;
+
+SensorId Map::add(const Sensor& sensor) {
+  auto errors = check(sensor);
+  if (errors.empty()) errors = check_reach(sensor, impl_->params.cell_m);
+  if (!errors.empty()) throw std::invalid_argument(describe(errors));
+  impl_->compiled.emplace_back(sensor, impl_->params.cell_m);
+  impl_->sensors.push_back(sensor);
+  return static_cast<SensorId>(impl_->sensors.size() - 1);
+}
+
+Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
+Report Map::integrate(std::span<const Scan> scans) {
+  Impl& m = *impl_;
+  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, *m.executor, m.tiles_per_worker, m.last_stamp_ns}, scans);
+}
+
+Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }
+float Map::conflict(CellIndex c) const noexcept { return read_cell(impl_->store, c).conflict; }
+CellIndex Map::cell_at(double x_m, double y_m) const noexcept {
+  const double c = impl_->params.cell_m;
+  return {static_cast<std::int64_t>(std::floor(x_m / c)), static_cast<std::int64_t>(std::floor(y_m / c))};
+}
+CellRect Map::bounds() const { return occupied_bounds(impl_->store); }
+void Map::render(Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) const {
+  render_layer(impl_->store, layer, rect, out, stride);
+}
+std::uint64_t Map::hash() const { return hash_cells(impl_->store); }
+
+void Map::clear() {
+  impl_->store.clear();
+  impl_->last_stamp_ns = std::numeric_limits<std::int64_t>::min();
+}
+const MapParams& Map::params() const noexcept { return impl_->params; }
+std::span<const Sensor> Map::sensors() const noexcept { return impl_->sensors; }
+std::string_view Map::kernel_name() const noexcept { return impl_->table->name; }
+std::string_view Map::executor_name() const noexcept { return impl_->executor->name(); }
+std::span<const std::uint64_t> Map::tiles_per_worker() const noexcept { return impl_->tiles_per_worker; }
+std::size_t Map::tiles() const noexcept { return impl_->store.size(); }
+std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
+
+}  // namespace evigrid

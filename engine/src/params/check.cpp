@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parameter table: every number of a sensor and a map with its unit, range and source. One row validates, and its
+// text is what the error says.
+#include <cmath>
+#include <cstdio>
+
+#include "evigrid/map.hpp"
+#include "params/table.hpp"
+
+namespace evigrid {
+namespace {
+
+std::string number(double v) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", v);
+  return text;
+}
+
+template <class T, std::size_t N>
+void check_rows(const ParamRow<T> (&rows)[N], const T& of, std::vector<ParamError>& errors) {
+  for (const auto& row : rows) {
+    const double v = row.get(of);
+    if (!(v >= row.least && v <= row.most)) {
+      errors.push_back({std::string(row.field), "is " + number(v) + ", must be within [" + number(row.least) + ", " +
+                                                    number(row.most) + "] " + std::string(row.unit)});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ParamError> check(const Sensor& s) {
+  std::vector<ParamError> errors;
+  check_rows(kSensorRows, s, errors);
+  if (s.min_range_m >= s.max_range_m) errors.push_back({"sensor.min_range_m", "must be below max_range_m"});
+  switch (s.model) {
+    case Model::hughes1992: check_rows(kHughesRows, s, errors); break;
+    case Model::li2014: check_rows(kLiRows, s, errors); break;
+    case Model::beam:
+      check_rows(kBeamRows, s, errors);
+      if (s.beam.empty_margin_m < s.beam.occupied_half_width_m) {
+        errors.push_back({"sensor.beam.empty_margin_m", "must be at least occupied_half_width_m"});
+      }
+      if (s.beams * s.beam_step_rad > 6.2831854) {
+        errors.push_back({"sensor.beam_step_rad", "times beams is more than a full circle"});
+      }
+      break;
+  }
+  if (s.model != Model::beam && s.beams != 1) errors.push_back({"sensor.beams", "must be 1 for a cone"});
+  return errors;
+}
+
+std::vector<ParamError> check(const MapParams& p) {
+  std::vector<ParamError> errors;
+  check_rows(kMapRows, p, errors);
+  return errors;
+}
+
+std::vector<ParamError> check_reach(const Sensor& s, double cell_m) {
+  const double cells = s.max_range_m / cell_m;
+  if (cells <= kMaxReachCells) return {};
+  return {{"sensor.max_range_m", "is " + number(cells) + " cells of " + number(cell_m) + " m; at most " +
+                                     number(kMaxReachCells) + " are supported"}};
+}
+
+std::string describe(const std::vector<ParamError>& errors) {
+  std::string text;
+  for (const auto& e : errors) text += (text.empty() ? "" : "; ") + e.field + " " + e.reason;
+  return text;
+}
+
+}  // namespace evigrid

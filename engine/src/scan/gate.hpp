@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gate: what comes in is either compiled into a footprint or counted by the reason it was refused.
+#pragma once
+#include <vector>
+
+#include "scan/compiled.hpp"
+
+namespace evigrid {
+
+/// Appends the footprints of one scan, in the order of its readings, and counts the rest in the report.
+void gate_scan(const Scan&, const std::vector<CompiledSensor>&, double cell_m, std::vector<Footprint>& out, Report&);
+
+}  // namespace evigrid

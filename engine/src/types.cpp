@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names of the enumerations, one table each, and poses.
+#include "evigrid/types.hpp"
+
+#include <array>
+
+#include "evigrid/scan.hpp"
+#include "kernels/row/portable_math.hpp"
+
+namespace evigrid {
+namespace {
+
+template <class E>
+struct Named {
+  E value;
+  std::string_view name;
+};
+constexpr std::array kRuleNames{Named<Rule>{Rule::dempster, "dempster"}, {Rule::pcr2, "pcr2"}, {Rule::pcr5, "pcr5"},
+                                {Rule::germ_pcr2, "germ_pcr2"}};
+constexpr std::array kModelNames{Named<Model>{Model::hughes1992, "hughes1992"}, {Model::li2014, "li2014"},
+                                 {Model::beam, "beam"}};
+constexpr std::array kKernelNames{Named<Kernel>{Kernel::automatic, "auto"}, {Kernel::scalar, "scalar"},
+                                  {Kernel::avx2, "avx2"}, {Kernel::avx512, "avx512"}};
+constexpr std::array kLayerNames{Named<Layer>{Layer::betp, "betp"}, {Layer::bel, "bel"}, {Layer::pl, "pl"},
+                                 {Layer::empty, "empty"}, {Layer::unknown, "unknown"}, {Layer::conflict, "conflict"}};
+constexpr std::array kRefusalNames{Named<Refusal>{Refusal::not_a_number, "not_a_number"},
+                                   {Refusal::too_close, "too_close"}, {Refusal::negative, "negative"},
+                                   {Refusal::no_return, "no_return"}, {Refusal::above_max_range, "above_max_range"},
+                                   {Refusal::wrong_beam_count, "wrong_beam_count"},
+                                   {Refusal::unknown_sensor, "unknown_sensor"},
+                                   {Refusal::pose_not_finite, "pose_not_finite"}};
+static_assert(kRuleNames.size() == kRuleCount && kModelNames.size() == kModelCount &&
+              kRefusalNames.size() == kRefusalCount);
+
+template <class Table, class E>
+std::string_view find_name(const Table& table, E value) noexcept {
+  for (const auto& n : table) {
+    if (n.value == value) return n.name;
+  }
+  return "?";
+}
+template <class E, class Table>
+std::optional<E> find_value(const Table& table, std::string_view text) noexcept {
+  for (const auto& n : table) {
+    if (n.name == text) return n.value;
+  }
+  return std::nullopt;
+}
+template <class E, std::size_t N>
+constexpr std::array<E, N> values(const std::array<Named<E>, N>& table) {
+  std::array<E, N> out{};
+  for (std::size_t i = 0; i < N; ++i) out[i] = table[i].value;
+  return out;
+}
+constexpr auto kRules = values(kRuleNames);
+constexpr auto kModels = values(kModelNames);
+
+}  // namespace
+
+std::string_view name(Rule r) noexcept { return find_name(kRuleNames, r); }
+std::string_view name(Model m) noexcept { return find_name(kModelNames, m); }
+std::string_view name(Kernel k) noexcept { return find_name(kKernelNames, k); }
+std::string_view name(Layer l) noexcept { return find_name(kLayerNames, l); }
+std::string_view name(Refusal r) noexcept { return find_name(kRefusalNames, r); }
+std::optional<Rule> rule_from_name(std::string_view s) noexcept { return find_value<Rule>(kRuleNames, s); }
+std::optional<Model> model_from_name(std::string_view s) noexcept { return find_value<Model>(kModelNames, s); }
+std::optional<Kernel> kernel_from_name(std::string_view s) noexcept { return find_value<Kernel>(kKernelNames, s); }
+std::span<const Rule> all_rules() noexcept { return kRules; }
+std::span<const Model> all_models() noexcept { return kModels; }
+
+Pose2 compose(const Pose2& a, const Pose2& b) noexcept {
+  const kernels::SinCos sc = kernels::portable_sincos(a.yaw_rad);
+  return {a.x_m + (sc.cos * b.x_m - sc.sin * b.y_m), a.y_m + (sc.sin * b.x_m + sc.cos * b.y_m), a.yaw_rad + b.yaw_rad};
+}
+
+}  // namespace evigrid
