@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "params/table.hpp"
+#include "kernels/row/kernel_table.hpp"
 #include "scan/compiled.hpp"
 
 namespace evigrid {
