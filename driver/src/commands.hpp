@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// One function a command: declares its options and what happens when it was called.
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace evigrid::driver {
+
+void add_map(CLI::App& app);
+void add_run(CLI::App& app);
+void add_cast(CLI::App& app);
+void add_combine(CLI::App& app);
+void add_model(CLI::App& app);
+void add_info(CLI::App& app);
+
+/// The whole program: 0 success, 2 bad input or usage, 1 a fault of ours.
+int run_program(int argc, const char* const* argv);
+
+}  // namespace evigrid::driver

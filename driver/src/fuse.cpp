@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine at work on a log: declare the sensors, hand over the scans in line order, batch by batch.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "error.hpp"
+#include "mapping.hpp"
+#include "progress.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+constexpr std::size_t kBatch = 128;  // scans a call: the engine's tiles stay warm, progress stays smooth
+
+std::string listed(const std::vector<ParamError>& errors) {
+  std::string out;
+  for (const ParamError& error : errors) out += (out.empty() ? "" : "; ") + error.field + " " + error.reason;
+  return out;
+}
+
+}  // namespace
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+Plan make_plan(const MappingOptions& o) {
+  Plan plan;
+  plan.params.rule = parse_rule(o.rule);
+  plan.params.kernel = parse_kernel(o.kernel);
+  if (!o.model.empty()) parse_model(o.model);
+  if (o.cell_m) plan.params.cell_m = *o.cell_m;
+  if (const auto errors = check(plan.params); !errors.empty()) throw InputError(listed(errors));
+  if (o.max_image_mb <= 0) throw InputError(fmt::format("--max-image-mb: {} is not above 0", o.max_image_mb));
+  plan.executor = parse_executor(o.executor, o.threads);
+  return plan;
+}
+
+Sensor configured(const Sensor& from_log, const MappingOptions& o) {
+  Sensor s = from_log;
+  const bool fan = s.beams > 1;
+  if (!o.model.empty()) s.model = parse_model(o.model);
+  if (fan != (s.model == Model::beam)) {
+    throw InputError(fmt::format("--model: {} is for {}, this input holds {}", name(s.model),
+                                 s.model == Model::beam ? "laser fans" : "sonar cones", fan ? "laser fans" : "sonar cones"));
+  }
+  if (o.max_range_m) s.max_range_m = *o.max_range_m;
+  if (fan) {  // beyond what the scanner can tell from "no return" there is nothing to clear
+    s.max_range_m = std::min(s.max_range_m, s.no_return_m);
+    s.clear_no_return = o.clear_no_return;
+  } else if (o.clear_no_return) {
+    throw InputError("--clear-no-return: is for lasers; a sonar that hears no echo does not show that its cone is empty");
+  }
+  s.reliability = o.reliability.value_or(fan ? 1.0 : s.reliability < 1 ? s.reliability : 0.9);
+  if (const auto errors = check(s); !errors.empty()) throw InputError(listed(errors));
+  return s;
+}
+
+Fused fuse(const Log& log, const MappingOptions& options, Plan plan) {
+  if (!options.cell_m && !log.fans()) plan.params.cell_m = 0.1;
+  std::vector<Sensor> sensors;
+  for (const LogSensor& s : log.sensors) sensors.push_back(configured(s.sensor, options));
+
+  Fused out{Map(plan.params, plan.executor), {}, 0, {}, plan.executor};
+  std::vector<SensorId> ids;
+  for (const Sensor& sensor : sensors) {
+    ids.push_back(out.map.add(sensor));
+    const std::string model(name(sensor.model));
+    if (std::find(out.models.begin(), out.models.end(), model) == out.models.end()) out.models.push_back(model);
+  }
+  std::vector<Reading> readings;
+  readings.reserve(log.readings.size());
+  for (const LogReading& r : log.readings) {
+    readings.push_back({ids[r.sensor], std::span(log.ranges_m).subspan(r.first, r.count)});
+  }
+  std::vector<Scan> scans;
+  scans.reserve(log.scans.size());
+  for (const LogScan& s : log.scans) {
+    scans.push_back({s.stamp_ns, s.T_map_robot, std::span<const Reading>(readings).subspan(s.first, s.count)});
+  }
+  Progress progress("fusing");
+  for (std::size_t at = 0; at < scans.size(); at += kBatch) {
+    const auto batch = std::span<const Scan>(scans).subspan(at, std::min(kBatch, scans.size() - at));
+    const auto start = Clock::now();
+    try {
+      out.report += out.map.integrate(batch);
+    } catch (const std::length_error& full) {
+      throw InputError(fmt::format("the map grows beyond its memory cap: {}; a larger --cell or a shorter --max-range helps", full.what()));
+    }
+    out.fusion_s += seconds_since(start);
+    progress.show(at + batch.size(), scans.size());
+  }
+  return out;
+}
+
+}  // namespace evigrid::driver

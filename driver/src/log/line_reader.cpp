@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// zlib reads plain files as they are and gzip files unpacked; what it does not do is to treat an early end as an error
+// on its own, so the end of the file asks for it.
+#include "log/line_reader.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+
+#include "error.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{1} << 18;
+constexpr std::size_t kMaxLine = std::size_t{1} << 24;  // 16 MiB: a fan of a million beams
+
+}  // namespace
+
+struct LineReader::Impl {
+  gzFile file = nullptr;
+};
+
+LineReader::LineReader(const std::string& path) : impl_(std::make_unique<Impl>()), path_(path), buffer_(kChunk) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InputError(fmt::format("{}: no such file", path));
+  if (std::filesystem::is_directory(status)) throw InputError(fmt::format("{}: is a folder, not a log file", path));
+  errno = 0;
+  impl_->file = gzopen(path.c_str(), "rb");
+  if (impl_->file == nullptr) throw InputError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+}
+
+LineReader::~LineReader() {
+  if (impl_->file != nullptr) gzclose_r(impl_->file);
+}
+
+bool LineReader::fill() {
+  if (ended_) return false;
+  if (begin_ > 0) {  // keep only the unfinished line
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  if (end_ == buffer_.size()) {
+    if (buffer_.size() >= kMaxLine) throw InputError(fmt::format("{}:{}: not a text log: a line of over 16 MiB", path_, line_ + 1));
+    buffer_.resize(buffer_.size() * 2);
+  }
+  errno = 0;
+  const int got = gzread(impl_->file, buffer_.data() + end_, static_cast<unsigned>(buffer_.size() - end_));
+  int code = Z_OK;
+  const char* message = gzerror(impl_->file, &code);
+  if (code == Z_BUF_ERROR) throw InputError(fmt::format("{}: truncated: the gzip stream ends too early", path_));
+  if (got < 0 || (code != Z_OK && code != Z_STREAM_END)) {
+    throw InputError(fmt::format("{}: cannot be read: {}", path_, code == Z_ERRNO ? std::strerror(errno) : message));
+  }
+  if (got == 0) ended_ = true;
+  if (std::memchr(buffer_.data() + end_, '\0', static_cast<std::size_t>(got)) != nullptr) {
+    throw InputError(fmt::format("{}: not a text log: it holds binary data", path_));
+  }
+  end_ += static_cast<std::size_t>(got);
+  return got > 0;
+}
+
+bool LineReader::next(std::string_view& line) {
+  std::size_t searched = begin_;
+  while (true) {
+    const char* from = buffer_.data() + searched;
+    if (const void* hit = std::memchr(from, '\n', end_ - searched)) {
+      const std::size_t at = static_cast<std::size_t>(static_cast<const char*>(hit) - buffer_.data());
+      line = {buffer_.data() + begin_, at - begin_};
+      begin_ = at + 1;
+      break;
+    }
+    const std::size_t seen = end_ - begin_;
+    if (!fill()) {
+      if (begin_ == end_) return false;
+      line = {buffer_.data() + begin_, end_ - begin_};  // a last line without an end
+      begin_ = end_;
+      break;
+    }
+    searched = begin_ + seen;
+  }
+  ++line_;
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return true;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& tokens) {
+  tokens.clear();
+  std::size_t at = 0;
+  while ((at = line.find_first_not_of(" \t", at)) != std::string_view::npos) {
+    const std::size_t stop = std::min(line.find_first_of(" \t", at), line.size());
+    tokens.push_back(line.substr(at, stop - at));
+    at = stop;
+  }
+}
+
+bool parse_number(std::string_view token, double& value) {
+  if (!token.empty() && token.front() == '+') token.remove_prefix(1);
+  const auto [stop, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+  return error == std::errc() && stop == token.data() + token.size() && !token.empty();
+}
+
+}  // namespace evigrid::driver

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines of a text file, plain or gzip, in bounded memory. Damage is an error and never a short file: a gzip stream cut
+// off in the middle or with a wrong checksum throws InputError naming the file, as do binary contents.
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace evigrid::driver {
+
+class LineReader {
+ public:
+  /// Throws InputError when the file is missing, a folder, or cannot be opened.
+  explicit LineReader(const std::string& path);
+  ~LineReader();
+  LineReader(const LineReader&) = delete;
+  LineReader& operator=(const LineReader&) = delete;
+
+  /// The next line without its end (\n or \r\n); false at the end of the file. The view lives until the next call.
+  bool next(std::string_view& line);
+  [[nodiscard]] std::size_t line_number() const { return line_; }  ///< of the line last returned, from 1
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  bool fill();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  std::string path_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0, end_ = 0, line_ = 0;
+  bool ended_ = false;
+};
+
+/// Splits at blanks and tabs into `tokens`, which is reused.
+void split(std::string_view line, std::vector<std::string_view>& tokens);
+
+/// The whole token as a number ("nan" and "inf" are numbers), locale-independent; false otherwise.
+bool parse_number(std::string_view token, double& value);
+
+}  // namespace evigrid::driver

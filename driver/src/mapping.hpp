@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a log, recorded or simulated, to a map and its output folder: what `map` and `run` share.
+#pragma once
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "evigrid/evigrid.hpp"
+#include "log/log.hpp"
+#include "options.hpp"
+#include "out/out_dir.hpp"
+
+namespace evigrid::driver {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start);
+
+/// Everything about the options that can be wrong before any file is read: throws InputError.
+struct Plan {
+  MapParams params;
+  std::shared_ptr<Executor> executor;
+};
+Plan make_plan(const MappingOptions& options);
+
+struct Fused {
+  Map map;
+  Report report;
+  double fusion_s = 0;  ///< the engine's time alone
+  std::vector<std::string> models;
+  std::shared_ptr<Executor> executor;
+};
+
+/// The sensor as the map will use it: the log's geometry with the user's model, range and reliability.
+Sensor configured(const Sensor& from_log, const MappingOptions& options);
+
+Fused fuse(const Log& log, const MappingOptions& options, Plan plan);
+
+/// report.json, masses.npy, map.pgm, map.yaml, map.png: staged in `out` and committed together. `extra` is merged in.
+void write_results(OutDir& out, const Log& log, const Fused& fused, const MappingOptions& options,
+                   Clock::time_point start, const nlohmann::ordered_json& extra);
+
+}  // namespace evigrid::driver

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names are checked by us and not by the parser of the command line: a rule that is planned but not built, or a kernel
+// this processor lacks, deserves a better answer than "not in the list".
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include "error.hpp"
+#include "evigrid/combine.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+template <class T>
+std::string joined(std::span<const T> all) {
+  std::string out;
+  for (const T one : all) out += (out.empty() ? "" : ", ") + std::string(name(one));
+  return out;
+}
+
+constexpr Kernel kKernels[] = {Kernel::scalar, Kernel::avx2, Kernel::avx512};
+constexpr int kMostThreads = 4096;
+
+}  // namespace
+
+std::string rule_names() { return joined(all_rules()); }
+std::string model_names() { return joined(all_models()); }
+
+Rule parse_rule(const std::string& text) {
+  if (const auto rule = rule_from_name(text)) return *rule;
+  throw InputError(fmt::format("--rule: '{}' is unknown or not built yet; known: {}", text, rule_names()));
+}
+
+Model parse_model(const std::string& text) {
+  if (const auto model = model_from_name(text)) return *model;
+  throw InputError(fmt::format("model '{}' is unknown or not built yet; known: {}", text, model_names()));
+}
+
+Kernel parse_kernel(const std::string& text) {
+  if (text == "auto" || text == "automatic") return Kernel::automatic;
+  std::string here;
+  for (const Kernel kernel : kKernels) {
+    if (!kernel_available(kernel)) continue;
+    if (text == name(kernel)) return kernel;
+    here += ", " + std::string(name(kernel));
+  }
+  throw InputError(fmt::format("--kernel: '{}' is unknown or cannot run here; here: auto{}", text, here));
+}
+
+std::shared_ptr<Executor> parse_executor(const std::string& text, int threads) {
+  if (threads < 0 || threads > kMostThreads) {
+    throw InputError(fmt::format("--threads: {} is not within [0, {}] (0: as many as the machine has)", threads, kMostThreads));
+  }
+  if (std::shared_ptr<Executor> executor = make_executor(text, threads)) return executor;
+  throw InputError(fmt::format("--executor: '{}' is unknown; known: serial, tbb, openmp", text));
+}
+
+void add_mapping_options(CLI::App& command, MappingOptions& o) {
+  command.add_option("-o,--out", o.out_dir, "output folder; made when missing")->required();
+  command.add_option("--rule", o.rule, "combination rule: " + rule_names())->capture_default_str();
+  command.add_option("--model", o.model, "sensor model: " + model_names() + " (default: beam for lasers, li2014 for sonars)");
+  command.add_option("--cell", o.cell_m, "side of a cell, m (default: 0.05 for lasers, 0.1 for sonars)");
+  command.add_option("--max-range", o.max_range_m, "m: lasers clear up to it, sonar readings beyond it are refused");
+  command.add_option("--reliability", o.reliability, "Shafer discount in (0, 1] (default: 1 for lasers, 0.9 for sonars)");
+  command.add_flag("--clear-no-return", o.clear_no_return, "lasers: a beam without return clears up to --max-range");
+  command.add_option("--threads", o.threads, "worker threads; 0: as many as the machine has")->capture_default_str();
+  command.add_option("--executor", o.executor, "serial, tbb or openmp; the map is the same")->capture_default_str();
+  command.add_option("--kernel", o.kernel, "auto, scalar, avx2 or avx512; the map is the same")->capture_default_str();
+  command.add_option("--json", o.json, "also write report.json to this file; - for standard output");
+  command.add_option("--max-image-mb", o.max_image_mb, "refuse masses and pictures larger than this")->capture_default_str();
+}
+
+}  // namespace evigrid::driver

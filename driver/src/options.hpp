@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that several commands share, as the user gave them, and their translation into the engine's words.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evigrid/executor.hpp"
+#include "evigrid/types.hpp"
+
+namespace evigrid::driver {
+
+struct MappingOptions {
+  std::string out_dir;
+  std::string rule = "pcr5";
+  std::string model;  ///< empty: beam for lasers, li2014 for sonars
+  std::optional<double> cell_m, max_range_m, reliability;
+  bool clear_no_return = false;
+  int threads = 0;
+  std::string executor = "tbb";
+  std::string kernel = "auto";
+  std::string json;  ///< empty: only DIR/report.json
+  int max_image_mb = 2048;
+};
+
+void add_mapping_options(CLI::App& command, MappingOptions& options);
+
+/// Each throws InputError naming the option, the value and the known names.
+Rule parse_rule(const std::string& name);
+Model parse_model(const std::string& name);
+Kernel parse_kernel(const std::string& name);
+std::shared_ptr<Executor> parse_executor(const std::string& name, int threads);
+
+/// The names of all rules (models) that are built, comma-separated.
+std::string rule_names();
+std::string model_names();
+
+}  // namespace evigrid::driver

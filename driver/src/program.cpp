@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands together, and the three ways a program can end.
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "commands.hpp"
+#include "error.hpp"
+#include "evigrid/version.hpp"
+
+namespace evigrid::driver {
+
+int run_program(int argc, const char* const* argv) {
+  constexpr int kOk = 0, kInternal = 1, kBadInput = 2;
+  try {
+    CLI::App app("evigrid: range readings in, evidential occupancy map out", "evigrid");
+    app.set_version_flag("--version", "evigrid " EVIGRID_VERSION);
+    app.require_subcommand(1);
+    app.footer("Every command has --help with examples.\nExit codes: 0 success, 2 bad input or usage, 1 internal error.");
+    add_map(app);
+    add_run(app);
+    add_cast(app);
+    add_combine(app);
+    add_model(app);
+    add_info(app);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      const int code = app.exit(error);  // prints help, the version, or what is wrong
+      return code == 0 ? kOk : kBadInput;
+    }
+    std::cout.flush();
+    if (!std::cout) throw InputError("standard output: cannot be written");
+    return kOk;
+  } catch (const InputError& error) {
+    std::cerr << "evigrid: " << error.what() << '\n';
+    return kBadInput;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "evigrid: out of memory\n";
+  } catch (const std::exception& error) {
+    std::cerr << "evigrid: internal error: " << error.what() << '\n';
+  }
+  return kInternal;
+}
+
+}  // namespace evigrid::driver

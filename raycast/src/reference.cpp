@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// The brute-force answer, by angles instead of directions and by an envelope instead of candidates. All angles at which
+// anything starts, ends, turns silent or crosses are sorted; between two neighbours the order of the surfaces is fixed,
+// so the one met first at the middle is met first throughout, and its distance is minimised there analytically.
+#include "evigrid/raycast/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "query.hpp"
+#include "surface.hpp"
+#include "tolerance.hpp"
+
+namespace evigrid::raycast {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A part of a surface narrower than this is one ray: it is looked at by itself.
+constexpr double kOneRay_rad = 1e-8;
+
+double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * kPi); }
+
+/// A surface in polar terms around the sensor, angles relative to the axis of the cone.
+struct Polar {
+  bool round = false;
+  double towards_rad = 0;   ///< foot of the perpendicular, or centre
+  double distance_m = 0;    ///< of the line, or of the centre
+  double radius_m = 0;      ///< circle
+  double begin_rad = 0;     ///< segment: first end, and from there counter-clockwise
+  double span_rad = 0;      ///< to the other end, < π
+  double nearer_end_m = 0;  ///< segment
+  double farther_end_m = 0;
+  double critical_rad = 0;
+  bool point = false;    ///< no direction of its own: echoes to every side
+  bool contact = false;  ///< the sensor stands on it
+  [[nodiscard]] bool inside() const { return round && distance_m < radius_m; }
+  [[nodiscard]] bool edge_on() const { return !round && span_rad < kOneRay_rad; }
+};
+
+Polar segment(const Surface& s, double axis_rad) {
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, size = std::hypot(dx, dy);
+  const double to_a = std::hypot(s.a.x, s.a.y), to_b = std::hypot(s.b.x, s.b.y);
+  const double angle_a = wrapped(std::atan2(s.a.y, s.a.x) - axis_rad);
+  const double angle_b = wrapped(std::atan2(s.b.y, s.b.x) - axis_rad);
+  const double turn = wrapped(angle_b - angle_a);
+  Polar p;
+  p.begin_rad = turn >= 0 ? angle_a : angle_b;
+  p.span_rad = std::abs(turn);
+  p.nearer_end_m = std::min(to_a, to_b);
+  p.farther_end_m = std::max(to_a, to_b);
+  p.critical_rad = s.critical_incidence_rad;
+  p.point = size <= kContact_m;
+  if (p.point) {
+    p.towards_rad = angle_a;
+    p.distance_m = to_a;
+    p.contact = to_a <= kContact_m;
+    return p;
+  }
+  const double signed_height = (s.a.x * dy - s.a.y * dx) / size;  // normal (dy, −dx)/size points at the foot if > 0
+  const double side = signed_height < 0 ? -1 : 1;
+  p.towards_rad = wrapped(std::atan2(-side * dx, side * dy) - axis_rad);
+  p.distance_m = std::abs(signed_height);
+  const double along = -(s.a.x * dx + s.a.y * dy) / size;
+  p.contact = std::min(to_a, to_b) <= kContact_m || (p.distance_m <= kContact_m && along >= 0 && along <= size);
+  return p;
+}
+
+Polar polar(const Surface& s, double axis_rad) {
+  if (s.kind == Surface::Kind::segment) return segment(s, axis_rad);
+  Polar p;
+  p.round = true;
+  p.towards_rad = wrapped(std::atan2(s.a.y, s.a.x) - axis_rad);
+  p.distance_m = std::hypot(s.a.x, s.a.y);
+  p.radius_m = s.radius;
+  p.critical_rad = s.critical_incidence_rad;
+  p.contact = std::abs(p.distance_m - p.radius_m) <= kContact_m;
+  return p;
+}
+
+/// Distance along the ray at this angle; +∞ when it misses.
+double range_at(const Polar& p, double angle_rad) {
+  const double off = wrapped(angle_rad - p.towards_rad);
+  if (p.round) {
+    const double sine = p.distance_m * std::sin(off);
+    const double half_chord = std::sqrt(std::max(0.0, p.radius_m * p.radius_m - sine * sine));
+    if (p.inside()) return p.distance_m * std::cos(off) + half_chord;
+    if (std::abs(off) > std::asin(std::min(1.0, p.radius_m / p.distance_m)) + kHidingSlack_rad) return kInfinity;
+    return p.distance_m * std::cos(off) - half_chord;
+  }
+  const double after_begin = wrapped(angle_rad - p.begin_rad - p.span_rad / 2) + p.span_rad / 2;
+  if (after_begin < -kHidingSlack_rad || after_begin > p.span_rad + kHidingSlack_rad) return kInfinity;
+  if (p.edge_on()) return p.nearer_end_m;
+  return std::min(p.distance_m / std::cos(off), p.farther_end_m);
+}
+
+bool echoes(const Polar& p, double angle_rad) {
+  if (p.point || p.critical_rad + kEdgeSlack_rad >= kPi / 2) return true;
+  const double off = std::abs(wrapped(angle_rad - p.towards_rad));
+  if (!p.round) return off <= p.critical_rad + kEdgeSlack_rad;
+  const double sine = p.radius_m > 0 ? std::min(1.0, p.distance_m * std::sin(off) / p.radius_m) : 0;
+  return std::asin(sine) <= p.critical_rad + kEdgeSlack_rad;
+}
+
+class Sweep {
+ public:
+  Sweep(const std::vector<Surface>& surfaces, const ConeQuery& q) : half_rad_(q.aperture_rad / 2 + kEdgeSlack_rad) {
+    for (const Surface& s : surfaces) seen_.push_back(polar(seen_from(s, {q.x_m, q.y_m}), q.yaw_rad));
+    for (const Polar& p : seen_) contact_ = contact_ || p.contact;
+    if (contact_) return;
+    add_event(-half_rad_);
+    add_event(half_rad_);
+    for (const Polar& p : seen_) add_events(p);
+    for (std::size_t i = 0; i < seen_.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) add_crossings(seen_[i], seen_[j]);
+    std::sort(events_.begin(), events_.end());
+  }
+
+  double nearest_m() {
+    if (contact_) return 0;
+    for (std::size_t i = 0; i + 1 < events_.size(); ++i)
+      if (events_[i + 1] > events_[i]) look(events_[i], events_[i + 1]);
+    for (double angle : single_rays_)
+      if (std::abs(angle) <= half_rad_) look(angle, angle);
+    return best_m_;
+  }
+
+ private:
+  void add_event(double angle_rad) {
+    const double a = wrapped(angle_rad);
+    if (std::abs(a) <= half_rad_) events_.push_back(a);
+  }
+
+  void add_events(const Polar& p) {
+    if (p.round) {
+      const double tangent = p.inside() ? kPi : std::asin(p.radius_m / p.distance_m);
+      const double sine = p.distance_m > 0 ? p.radius_m * std::sin(p.critical_rad) / p.distance_m : 1;
+      const double silent = std::asin(std::min(1.0, sine));
+      for (double off : {tangent, -tangent, silent, -silent, kPi - silent, kPi + silent})
+        add_event(p.towards_rad + off);
+    } else {
+      add_event(p.begin_rad);
+      add_event(p.begin_rad + p.span_rad);
+      add_event(p.towards_rad + p.critical_rad);
+      add_event(p.towards_rad - p.critical_rad);
+    }
+    if (p.edge_on()) single_rays_.push_back(wrapped(p.begin_rad + p.span_rad / 2));
+    if (p.round ? p.radius_m * std::sin(p.critical_rad) < kOneRay_rad * p.distance_m : p.critical_rad < kOneRay_rad) {
+      single_rays_.push_back(p.towards_rad);
+      if (p.inside()) single_rays_.push_back(wrapped(p.towards_rad + kPi));
+    }
+  }
+
+  /// Crossings by following both ranges along the common angles: a sign change is bracketed and bisected. Slow, and
+  /// nothing like the formulas of the caster.
+  void add_crossings(const Polar& p, const Polar& q) {
+    std::vector<double> grid;
+    for (const Polar* s : {&p, &q}) {
+      if (s->round) {
+        const double tangent = s->inside() ? kPi : std::asin(s->radius_m / s->distance_m);
+        for (double off : {-tangent, 0.0, tangent}) grid.push_back(wrapped(s->towards_rad + off));
+      } else {
+        for (double off : {0.0, s->span_rad}) grid.push_back(wrapped(s->begin_rad + off));
+        grid.push_back(s->towards_rad);
+      }
+    }
+    constexpr int kSteps = 64;
+    for (int k = 0; k <= kSteps; ++k) grid.push_back(half_rad_ * (2.0 * k / kSteps - 1));
+    std::sort(grid.begin(), grid.end());
+    const auto difference = [&](double a) { return range_at(p, a) - range_at(q, a); };
+    for (std::size_t k = 0; k + 1 < grid.size(); ++k) {
+      double low = grid[k], high = grid[k + 1];
+      if (low < -half_rad_ || high > half_rad_ || high - low < 1e-14) continue;
+      const double at_low = difference(low), at_high = difference(high);
+      if (!std::isfinite(at_low) || !std::isfinite(at_high) || (at_low < 0) == (at_high < 0)) continue;
+      for (int step = 0; step < 60; ++step) {
+        const double middle = (low + high) / 2;
+        ((difference(middle) < 0) == (at_low < 0) ? low : high) = middle;
+      }
+      events_.push_back(low);
+    }
+  }
+
+  /// No event lies strictly between the two angles.
+  void look(double begin_rad, double end_rad) {
+    const double middle = (begin_rad + end_rad) / 2;
+    double first = kInfinity;
+    for (const Polar& p : seen_) first = std::min(first, range_at(p, middle));
+    if (first == kInfinity) return;
+    for (const Polar& p : seen_)
+      if (range_at(p, middle) <= first + kTie * (1 + first) && echoes(p, middle))
+        best_m_ = std::min(best_m_, least(p, begin_rad, end_rad));
+  }
+
+  static double least(const Polar& p, double begin_rad, double end_rad) {
+    double best = range_at(p, (begin_rad + end_rad) / 2);
+    const auto consider = [&](double angle) { best = std::min(best, range_at(p, angle)); };
+    consider(begin_rad);
+    consider(end_rad);
+    // Straight ahead of the foot or the near point; the wall behind is the near point from inside a circle.
+    const double nearest = p.inside() ? wrapped(p.towards_rad + kPi) : p.towards_rad;
+    if (nearest > begin_rad && nearest < end_rad) consider(nearest);
+    return best;
+  }
+
+  double half_rad_;
+  bool contact_ = false;
+  double best_m_ = kInfinity;
+  std::vector<Polar> seen_;
+  std::vector<double> events_, single_rays_;
+};
+
+}  // namespace
+
+Echo reference_cone(const World& world, const ConeQuery& query) {
+  check(query);
+  return echo_at(Sweep(take_apart(world), query).nearest_m(), query);
+}
+
+double reference_ray(const World& world, double x_m, double y_m, double angle_rad, double max_range_m) {
+  check_ray(x_m, y_m, angle_rad, max_range_m);
+  double first = kInfinity;
+  for (const Surface& s : take_apart(world)) {
+    const Polar p = polar(seen_from(s, {x_m, y_m}), angle_rad);
+    first = std::min(first, p.contact ? 0 : range_at(p, 0));
+  }
+  return first <= max_range_m ? first : kInfinity;
+}
+
+}  // namespace evigrid::raycast

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wedge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tolerance.hpp"
+
+namespace evigrid::raycast {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Rounding of a cross product of two directions.
+constexpr double kRounding = 1e-15;
+
+/// Part [low, high] of a segment a + u·(b − a), u ∈ [0, 1].
+struct Range {
+  double low = 0, high = 1;
+  [[nodiscard]] bool empty() const { return low > high; }
+};
+
+/// Keeps the u with f0 + u·df >= 0.
+void keep_non_negative(Range& r, double f0, double df) {
+  if (df > 0)
+    r.low = std::max(r.low, -f0 / df);
+  else if (df < 0)
+    r.high = std::min(r.high, -f0 / df);
+  else if (f0 < 0)
+    r.high = -1;
+}
+
+Range clip(const Surface& s, Vec2 edge, const Wedge& w) {
+  Range r;
+  keep_non_negative(r, cross(w.arc.right, s.a), cross(w.arc.right, edge));
+  keep_non_negative(r, cross(s.a, w.arc.left), cross(edge, w.arc.left));
+  keep_non_negative(r, dot(w.axis, s.a), dot(w.axis, edge));  // a cone of opening 0 is not a line
+  return r;
+}
+
+/// Parameter of the foot of the perpendicular, and the distance of the line.
+struct Foot {
+  double u, height;
+};
+Foot foot(const Surface& s, Vec2 edge) {
+  const double square = dot(edge, edge);
+  return {-dot(s.a, edge) / square, std::abs(cross(s.a, edge)) / std::sqrt(square)};
+}
+
+bool touches_origin(const Surface& s) {
+  if (s.kind == Surface::Kind::circle) return std::abs(length(s.a) - s.radius) <= kContact_m;
+  const Vec2 edge = s.b - s.a;
+  const double square = dot(edge, edge);
+  const double u = square > 0 ? std::clamp(-dot(s.a, edge) / square, 0.0, 1.0) : 0;
+  return length(s.a + u * edge) <= kContact_m;
+}
+
+bool is_point(Vec2 edge) { return length(edge) <= kContact_m; }
+
+Vec2 clamped(const Arc& arc, Vec2 u) {
+  if (contains(arc, u)) return u;
+  return dot(u, arc.right) > dot(u, arc.left) ? arc.right : arc.left;
+}
+
+/// Directions within ±β of `centre`.
+Arc around(Vec2 centre, double sine) {
+  const double cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
+  return {rotated(centre, cosine, -sine), rotated(centre, cosine, sine)};
+}
+
+/// Nearest point of a circle over an arc of directions that all meet it.
+Vec2 nearest_on_circle(const Surface& s, const Arc& arc) {
+  const auto at = [&](Vec2 u) { return hit_distance(s, u) * u; };
+  const double centre_distance = length(s.a);
+  if (centre_distance > s.radius) return at(clamped(arc, unit(s.a)));
+  Vec2 best = at(arc.right);
+  const auto consider = [&](Vec2 p) {
+    if (dot(p, p) < dot(best, best)) best = p;
+  };
+  consider(at(arc.left));
+  if (centre_distance > 0 && contains(arc, -unit(s.a))) consider(at(-unit(s.a)));
+  return best;
+}
+
+/// Parts of a circle met at no more than `sin_limit`: sin(incidence) = D·sin(angle to the centre) / r.
+Pieces circle_pieces(const Surface& s, const Wedge& w, double sin_limit) {
+  Pieces pieces;
+  const auto add = [&](const Arc& arc) {
+    if (const auto common = intersection(arc, w.arc))
+      pieces.piece[pieces.count++] = {*common, nearest_on_circle(s, *common)};
+  };
+  const double distance = length(s.a);
+  const bool outside = distance > s.radius;
+  if (!outside && s.radius * sin_limit >= distance) {
+    pieces.piece[pieces.count++] = {w.arc, nearest_on_circle(s, w.arc)};
+    return pieces;
+  }
+  const double sine = s.radius * sin_limit / distance;
+  add(around(unit(s.a), sine));
+  if (!outside) add(around(-unit(s.a), sine));
+  return pieces;
+}
+
+Piece point_piece(Vec2 p) { return {{unit(p), unit(p)}, p}; }
+
+}  // namespace
+
+bool contains(const Arc& arc, Vec2 u) {
+  return cross(arc.right, u) >= -kRounding && cross(u, arc.left) >= -kRounding && dot(u, arc.right + arc.left) >= 0;
+}
+
+std::optional<Arc> intersection(const Arc& a, const Arc& b) {
+  Arc common;
+  if (contains(b, a.right))
+    common.right = a.right;
+  else if (contains(a, b.right))
+    common.right = b.right;
+  else
+    return std::nullopt;
+  if (contains(b, a.left))
+    common.left = a.left;
+  else if (contains(a, b.left))
+    common.left = b.left;
+  else
+    return std::nullopt;
+  return common;
+}
+
+Wedge make_wedge(double yaw_rad, double aperture_rad) {
+  const Vec2 axis{std::cos(yaw_rad), std::sin(yaw_rad)};
+  const double half = aperture_rad / 2 + kEdgeSlack_rad;
+  const double c = std::cos(half), s = std::sin(half);
+  return {axis, {rotated(axis, c, -s), rotated(axis, c, s)}};
+}
+
+std::optional<Vec2> nearest_in_wedge(const Surface& s, const Wedge& w) {
+  if (touches_origin(s)) return Vec2{0, 0};
+  if (s.kind == Surface::Kind::circle) {
+    const Pieces whole = circle_pieces(s, w, 1);
+    std::optional<Vec2> best;
+    for (int i = 0; i < whole.count; ++i) {
+      const Vec2 p = whole.piece[i].nearest;
+      if (!best || dot(p, p) < dot(*best, *best)) best = p;
+    }
+    return best;
+  }
+  const Vec2 edge = s.b - s.a;
+  if (is_point(edge)) return contains(w.arc, unit(s.a)) ? std::optional(s.a) : std::nullopt;
+  const Range r = clip(s, edge, w);
+  if (r.empty()) return std::nullopt;
+  return s.a + std::clamp(foot(s, edge).u, r.low, r.high) * edge;
+}
+
+bool gives_echo(const Surface& s, Vec2 p) {
+  const double range = length(p);
+  if (range <= kContact_m || s.tan_critical == kInfinity) return true;
+  if (s.kind == Surface::Kind::circle) return std::abs(cross(p, s.a)) <= s.radius * s.sin_critical * range;
+  const Vec2 edge = s.b - s.a;
+  if (is_point(edge)) return true;
+  return std::abs(dot(p, edge)) <= s.tan_critical * std::abs(cross(p, edge));
+}
+
+Pieces echo_pieces(const Surface& s, const Wedge& w) {
+  if (s.kind == Surface::Kind::circle) return circle_pieces(s, w, s.sin_critical);
+  Pieces none, one;
+  one.count = 1;
+  const Vec2 edge = s.b - s.a;
+  if (is_point(edge)) {
+    one.piece[0] = point_piece(s.a);
+    return contains(w.arc, unit(s.a)) ? one : none;
+  }
+  Range r = clip(s, edge, w);
+  const Foot f = foot(s, edge);
+  if (s.tan_critical != kInfinity) {
+    const double reach = f.height * s.tan_critical / length(edge);
+    r.low = std::max(r.low, f.u - reach);
+    r.high = std::min(r.high, f.u + reach);
+  }
+  if (r.empty()) return none;
+  const auto at = [&](double u) { return s.a + u * edge; };
+  Arc arc{unit(at(r.low)), unit(at(r.high))};
+  if (cross(arc.right, arc.left) < 0) std::swap(arc.right, arc.left);
+  one.piece[0] = {arc, at(std::clamp(f.u, r.low, r.high))};
+  return one;
+}
+
+double hit_distance(const Surface& s, Vec2 u) {
+  const double slack = kHidingSlack_rad;
+  if (s.kind == Surface::Kind::circle) {
+    const double along = dot(u, s.a), across = cross(u, s.a), distance = length(s.a);
+    const double half_chord = std::sqrt(std::max(0.0, s.radius * s.radius - across * across));
+    if (distance <= s.radius) return along + half_chord;
+    if (along <= 0 || std::abs(across) > s.radius + slack * distance) return kInfinity;
+    return along - half_chord;
+  }
+  const bool swap = cross(s.a, s.b) < 0;
+  const Vec2 right = swap ? s.b : s.a, left = swap ? s.a : s.b, edge = left - right;
+  const double to_right = length(right), to_left = length(left), longest = std::max(to_right, to_left);
+  if (cross(right, u) < -slack * to_right || cross(u, left) < -slack * to_left) return kInfinity;
+  if (dot(u, right) <= 0 && dot(u, left) <= 0) return kInfinity;
+  const double facing = cross(u, edge);
+  if (facing <= kRounding * length(edge)) return std::min(to_right, to_left);  // seen edge-on, or a point
+  return std::max(foot(s, edge).height, std::min(cross(right, edge) / facing, longest));
+}
+
+}  // namespace evigrid::raycast

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// One surface and one cone, apex at the origin: the nearest point of the surface in the cone, the part of it that gives
+// an echo, and where a ray meets it. No other surface is looked at here.
+#pragma once
+#include <optional>
+
+#include "surface.hpp"
+#include "vec2.hpp"
+
+namespace evigrid::raycast {
+
+/// Directions from `right` counter-clockwise to `left`, both included; spans less than π.
+struct Arc {
+  Vec2 right, left;
+};
+
+bool contains(const Arc& arc, Vec2 direction);
+std::optional<Arc> intersection(const Arc& a, const Arc& b);
+/// Cross product of the two ends: the sine of the span.
+inline double sine_of_span(const Arc& arc) { return cross(arc.right, arc.left); }
+
+/// The closed cone, its edges moved outwards by kEdgeSlack_rad.
+struct Wedge {
+  Vec2 axis;
+  Arc arc;
+};
+Wedge make_wedge(double yaw_rad, double aperture_rad);
+
+/// Nearest point in the wedge whatever the incidence; contact with the apex is the point (0, 0).
+std::optional<Vec2> nearest_in_wedge(const Surface& s, const Wedge& wedge);
+
+/// Whether the part of the surface at its point `p` gives an echo to the origin.
+bool gives_echo(const Surface& s, Vec2 p);
+
+/// A connected part of a surface inside the wedge that gives an echo, as directions, and its nearest point.
+struct Piece {
+  Arc arc;
+  Vec2 nearest;
+};
+/// None, one or (a circle around the origin) two.
+struct Pieces {
+  Piece piece[2];
+  int count = 0;
+};
+Pieces echo_pieces(const Surface& s, const Wedge& wedge);
+
+/// Distance at which a ray from the origin meets the surface first; +∞ when it misses. Hides kHidingSlack_rad beyond
+/// the ends.
+double hit_distance(const Surface& s, Vec2 direction);
+
+}  // namespace evigrid::raycast

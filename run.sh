@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds Release, and maps the embedded scene: a furnished room, a robot with 24 sonars.
+# Usage: ./run.sh [output folder]        pictures and report land there (default: out/room)
+set -euo pipefail
+cd "$(dirname "$0")"
+source cmake/packages.sh
+evigrid_install "${EVIGRID_PACKAGES[@]}"
+out="${1:-out/room}"
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=OFF -DEVIGRID_BUILD_BENCH=OFF >/dev/null
+cmake --build build
+mkdir -p "$(dirname "$out")"
+build/evigrid run -o "$out"
+echo "Look at $out/map.png; the figures are in $out/report.json"

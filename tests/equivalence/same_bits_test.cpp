@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same bits from every kernel, executor, number of threads and batch size, for every rule and model; and the kernel
+// that was asked for is the one that ran.
+#include <gtest/gtest.h>
+#include <immintrin.h>
+
+#include "equivalence/random_scans.hpp"
+
+namespace evigrid::testing {
+namespace {
+
+std::vector<Kernel> kernels_here() {
+  std::vector<Kernel> out;
+  for (const Kernel k : {Kernel::scalar, Kernel::avx2, Kernel::avx512}) {
+    if (kernel_available(k)) out.push_back(k);
+  }
+  return out;
+}
+
+class SameBits : public ::testing::TestWithParam<std::tuple<Rule, Model>> {};
+
+TEST_P(SameBits, AcrossKernels) {
+  const auto [rule, model] = GetParam();
+  const auto d = drive(model, 25, 11);
+  const MapParams params{.rule = rule, .kernel = Kernel::scalar};
+  const Outcome scalar = fuse(*d, params, make_serial_executor());
+  ASSERT_EQ(scalar.kernel, "scalar");
+  ASSERT_GT(scalar.report.cells_updated, 50000u);
+  for (const Kernel k : kernels_here()) {
+    MapParams p = params;
+    p.kernel = k;
+    const Outcome o = fuse(*d, p, make_serial_executor());
+    EXPECT_EQ(o.kernel, name(k));
+    EXPECT_EQ(o.hash, scalar.hash) << name(k);
+    EXPECT_EQ(o.report.cells_updated, scalar.report.cells_updated);
+    EXPECT_EQ(o.report.max_conflict, scalar.report.max_conflict);
+    EXPECT_EQ(o.report.total_conflicts, scalar.report.total_conflicts);
+  }
+  if (kernels_here().size() < 3) GTEST_SKIP() << "this processor lacks AVX2 or AVX-512: those tables were not compared";
+}
+
+TEST_P(SameBits, AcrossThreadsExecutorsAndBatches) {
+  const auto [rule, model] = GetParam();
+  const auto d = drive(model, 20, 12);
+  const MapParams params{.rule = rule};
+  const Outcome serial = fuse(*d, params, make_serial_executor(), 1);
+  for (const char* executor : {"tbb", "openmp"}) {
+    for (const int threads : {1, 2, 7}) {
+      const Outcome o = fuse(*d, params, make_executor(executor, threads), static_cast<std::size_t>(threads) * 3);
+      EXPECT_EQ(o.executor, executor);
+      EXPECT_EQ(o.hash, serial.hash) << executor << threads;
+      EXPECT_EQ(o.report.cells_updated, serial.report.cells_updated);
+    }
+  }
+}
+
+/// A host that flushes denormals to zero gets the same map: none ever arises.
+TEST_P(SameBits, WithDenormalsFlushedToZero) {
+  const auto [rule, model] = GetParam();
+  const auto d = drive(model, 25, 13);
+  const MapParams params{.rule = rule};
+  const Outcome plain = fuse(*d, params, make_serial_executor());
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | 0x8040);
+  const Outcome flushed = fuse(*d, params, make_serial_executor());
+  _mm_setcsr(before);
+  EXPECT_EQ(plain.hash, flushed.hash);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SameBits,
+                         ::testing::Combine(::testing::ValuesIn(all_rules().begin(), all_rules().end()),
+                                            ::testing::Values(Model::hughes1992, Model::li2014)),
+                         [](const auto& info) {
+                           return std::string(name(std::get<0>(info.param))) + "_" + std::string(name(std::get<1>(info.param)));
+                         });
+
+}  // namespace
+}  // namespace evigrid::testing

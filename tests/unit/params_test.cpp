@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad parameters are listed by name and reason, all at once.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "evigrid/evigrid.hpp"
+
+namespace evigrid {
+namespace {
+
+bool names(const std::vector<ParamError>& errors, const std::string& field) {
+  for (const auto& e : errors) {
+    if (e.field == field && !e.reason.empty()) return true;
+  }
+  return false;
+}
+
+TEST(Params, DefaultsAreValid) {
+  EXPECT_TRUE(check(MapParams{}).empty());
+  EXPECT_TRUE(check(Sensor{}).empty());
+  Sensor h;
+  h.model = Model::hughes1992;
+  EXPECT_TRUE(check(h).empty());
+}
+
+TEST(Params, EveryBadFieldIsNamed) {
+  for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_TRUE(names(check(MapParams{.cell_m = bad}), "map.cell_m")) << bad;
+  }
+  Sensor s;
+  s.aperture_rad = 2;
+  s.reliability = 0;
+  s.li.rho_e = -1;
+  s.beams = 3;
+  const auto errors = check(s);
+  EXPECT_TRUE(names(errors, "sensor.aperture_rad"));
+  EXPECT_TRUE(names(errors, "sensor.reliability"));
+  EXPECT_TRUE(names(errors, "sensor.li.rho_e"));
+  EXPECT_TRUE(names(errors, "sensor.beams"));
+  Sensor swapped;
+  swapped.min_range_m = 6;
+  EXPECT_TRUE(names(check(swapped), "sensor.min_range_m"));
+  Sensor fan;
+  fan.model = Model::beam;
+  fan.beams = 720;
+  fan.beam_step_rad = 0.01;
+  EXPECT_TRUE(names(check(fan), "sensor.beam_step_rad"));
+}
+
+TEST(Params, ConstructionThrowsWithTheNames) {
+  try {
+    Map map({.cell_m = 0});
+    FAIL();
+  } catch (const std::invalid_argument& e) {
+    EXPECT_NE(std::string(e.what()).find("map.cell_m"), std::string::npos);
+  }
+  Map map({.cell_m = 0.001}, make_serial_executor());
+  Sensor far;
+  far.max_range_m = 1000;
+  EXPECT_THROW(map.add(far), std::invalid_argument);
+}
+
+TEST(Params, NamesRoundTrip) {
+  for (const Rule r : all_rules()) EXPECT_EQ(rule_from_name(name(r)), r);
+  for (const Model m : all_models()) EXPECT_EQ(model_from_name(name(m)), m);
+  EXPECT_FALSE(rule_from_name("nonsense"));
+  for (int i = 0; i < kRefusalCount; ++i) EXPECT_NE(name(static_cast<Refusal>(i)), "?");
+}
+
+}  // namespace
+}  // namespace evigrid
