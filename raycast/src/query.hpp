@@ -3,6 +3,7 @@
 #pragma once
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "evigrid/raycast/cone.hpp"
 

@@ -94,7 +94,8 @@ double range_at(const Polar& p, double angle_rad) {
   const double after_begin = wrapped(angle_rad - p.begin_rad - p.span_rad / 2) + p.span_rad / 2;
   if (after_begin < -kHidingSlack_rad || after_begin > p.span_rad + kHidingSlack_rad) return kInfinity;
   if (p.edge_on()) return p.nearer_end_m;
-  return std::min(p.distance_m / std::cos(off), p.farther_end_m);
+  const double cosine = std::cos(off);
+  return cosine > 0 ? std::min(p.distance_m / cosine, p.farther_end_m) : p.farther_end_m;
 }
 
 bool echoes(const Polar& p, double angle_rad) {
@@ -154,34 +155,62 @@ class Sweep {
     }
   }
 
-  /// Crossings by following both ranges along the common angles: a sign change is bracketed and bisected. Slow, and
-  /// nothing like the formulas of the caster.
+  /// Crossings by following both ranges along the common angles: a sign change is bracketed and bisected, and where a
+  /// circle may dip below the other surface and come back, the deepest point is searched first. Slow, and nothing like
+  /// the formulas of the caster.
   void add_crossings(const Polar& p, const Polar& q) {
+    if (least_m(p) > most_m(q) || least_m(q) > most_m(p)) return;
     std::vector<double> grid;
-    for (const Polar* s : {&p, &q}) {
-      if (s->round) {
-        const double tangent = s->inside() ? kPi : std::asin(s->radius_m / s->distance_m);
-        for (double off : {-tangent, 0.0, tangent}) grid.push_back(wrapped(s->towards_rad + off));
-      } else {
-        for (double off : {0.0, s->span_rad}) grid.push_back(wrapped(s->begin_rad + off));
-        grid.push_back(s->towards_rad);
-      }
-    }
-    constexpr int kSteps = 64;
+    for (const Polar* s : {&p, &q}) add_corners(*s, grid);
+    constexpr int kSteps = 16;
     for (int k = 0; k <= kSteps; ++k) grid.push_back(half_rad_ * (2.0 * k / kSteps - 1));
     std::sort(grid.begin(), grid.end());
-    const auto difference = [&](double a) { return range_at(p, a) - range_at(q, a); };
     for (std::size_t k = 0; k + 1 < grid.size(); ++k) {
-      double low = grid[k], high = grid[k + 1];
+      const double low = grid[k], high = grid[k + 1];
       if (low < -half_rad_ || high > half_rad_ || high - low < 1e-14) continue;
-      const double at_low = difference(low), at_high = difference(high);
-      if (!std::isfinite(at_low) || !std::isfinite(at_high) || (at_low < 0) == (at_high < 0)) continue;
-      for (int step = 0; step < 60; ++step) {
-        const double middle = (low + high) / 2;
-        ((difference(middle) < 0) == (at_low < 0) ? low : high) = middle;
+      const double at_low = range_at(p, low) - range_at(q, low), at_high = range_at(p, high) - range_at(q, high);
+      if (!std::isfinite(at_low) || !std::isfinite(at_high)) continue;
+      if ((at_low < 0) != (at_high < 0)) {
+        add_sign_change(p, q, low, high);
+      } else if (p.round || q.round) {
+        const double deepest = deepest_point(p, q, low, high, at_low < 0 ? -1 : 1);
+        if ((range_at(p, deepest) - range_at(q, deepest) < 0) == (at_low < 0)) continue;
+        add_sign_change(p, q, low, deepest);
+        add_sign_change(p, q, deepest, high);
       }
-      events_.push_back(low);
     }
+  }
+
+  static double least_m(const Polar& p) {
+    if (p.round) return p.inside() ? p.radius_m - p.distance_m : p.distance_m - p.radius_m;
+    return std::min(p.distance_m, p.nearer_end_m);
+  }
+  static double most_m(const Polar& p) { return p.round ? p.distance_m + p.radius_m : p.farther_end_m; }
+
+  static void add_corners(const Polar& p, std::vector<double>& angles) {
+    angles.push_back(p.towards_rad);
+    const double tangent = p.round && !p.inside() ? std::asin(p.radius_m / p.distance_m) : kPi;
+    for (double off : {-tangent, tangent}) angles.push_back(wrapped(p.towards_rad + off));
+    if (p.round) return;
+    for (double off : {0.0, p.span_rad}) angles.push_back(wrapped(p.begin_rad + off));
+  }
+
+  void add_sign_change(const Polar& p, const Polar& q, double low, double high) {
+    const bool below = range_at(p, low) < range_at(q, low);
+    for (int step = 0; step < 60; ++step) {
+      const double middle = (low + high) / 2;
+      ((range_at(p, middle) < range_at(q, middle)) == below ? low : high) = middle;
+    }
+    events_.push_back(low);
+  }
+
+  static double deepest_point(const Polar& p, const Polar& q, double low, double high, double sign) {
+    for (int step = 0; step < 60; ++step) {
+      const double l = low + (high - low) / 3, h = high - (high - low) / 3;
+      const double at_l = sign * (range_at(p, l) - range_at(q, l)), at_h = sign * (range_at(p, h) - range_at(q, h));
+      (at_l < at_h ? high : low) = at_l < at_h ? h : l;
+    }
+    return (low + high) / 2;
   }
 
   /// No event lies strictly between the two angles.

@@ -51,7 +51,7 @@ TEST(Fused, EqualsUnfused) {
           table->measure_cone[model](args, q, *measured);
           table->combine_measured[rule](args, *measured, b);
         }
-        EXPECT_GT(a.cells, 3000u);
+        EXPECT_GT(a.cells, 2000u);  // the comparison is not of nothing
         EXPECT_EQ(a.cells, b.cells);
         EXPECT_EQ(a.max_conflict, b.max_conflict);
         EXPECT_EQ(0, std::memcmp(fused->cells, unfused->cells, sizeof fused->cells)) << table_name << rule << model;

@@ -70,8 +70,8 @@ TEST_P(SameBits, WithDenormalsFlushedToZero) {
 INSTANTIATE_TEST_SUITE_P(All, SameBits,
                          ::testing::Combine(::testing::ValuesIn(all_rules().begin(), all_rules().end()),
                                             ::testing::Values(Model::hughes1992, Model::li2014)),
-                         [](const auto& info) {
-                           return std::string(name(std::get<0>(info.param))) + "_" + std::string(name(std::get<1>(info.param)));
+                         [](const auto& which) {
+                           return std::string(name(std::get<0>(which.param))) + "_" + std::string(name(std::get<1>(which.param)));
                          });
 
 }  // namespace
