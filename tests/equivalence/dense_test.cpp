@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "evigrid/evigrid.hpp"
+#include "sanitizer.hpp"
 
 namespace evigrid {
 namespace {
@@ -26,8 +27,8 @@ struct Arrays {
   Planes<const float> in() const { return {e.data(), o.data(), u.data()}; }
   Planes<float> out() { return {e.data(), o.data(), u.data()}; }
   bool operator==(const Arrays& b) const {
-    return std::memcmp(e.data(), b.e.data(), e.size() * 4) == 0 && std::memcmp(o.data(), b.o.data(), o.size() * 4) == 0 &&
-           std::memcmp(u.data(), b.u.data(), u.size() * 4) == 0;
+    return e.empty() || (std::memcmp(e.data(), b.e.data(), e.size() * 4) == 0 && std::memcmp(o.data(), b.o.data(), o.size() * 4) == 0 &&
+                         std::memcmp(u.data(), b.u.data(), u.size() * 4) == 0);
   }
 };
 
@@ -41,7 +42,7 @@ TEST(Dense, SameBitsForTablesLengthsAndPlace) {
       for (const Kernel kernel : {Kernel::avx2, Kernel::avx512}) {
         if (!kernel_available(kernel)) continue;
         Arrays got = a;
-        const auto executor = make_tbb_executor(2);
+        const auto executor = testing::kThreadSanitizer ? make_serial_executor() : make_tbb_executor(2);
         EXPECT_EQ(combine(rule, got.in(), b.in(), got.out(), k2.data(), n, kernel, executor.get()), totals);
         EXPECT_TRUE(got == want) << name(rule) << " " << name(kernel) << " " << n;
         EXPECT_EQ(k, k2);

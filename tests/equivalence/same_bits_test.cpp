@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 #include <immintrin.h>
 
+#include <atomic>
+#include <thread>
+
 #include "equivalence/random_scans.hpp"
+#include "sanitizer.hpp"
 
 namespace evigrid::testing {
 namespace {
@@ -39,7 +43,38 @@ TEST_P(SameBits, AcrossKernels) {
   if (kernels_here().size() < 3) GTEST_SKIP() << "this processor lacks AVX2 or AVX-512: those tables were not compared";
 }
 
+/// The host's own threads, as a robot would hand them in; also what the thread sanitizer can see into.
+class HostThreads final : public Executor {
+ public:
+  explicit HostThreads(int threads) : threads_(threads) {}
+  int concurrency() const noexcept override { return threads_; }
+  std::string_view name() const noexcept override { return "host"; }
+  void run(std::int64_t count, Task task, void* context) override {
+    std::atomic<std::int64_t> next{0};
+    std::vector<std::thread> pool;
+    for (int worker = 0; worker < threads_; ++worker) {
+      pool.emplace_back([&, worker] {
+        for (std::int64_t i = next++; i < count; i = next++) task(context, i, worker);
+      });
+    }
+    for (auto& t : pool) t.join();
+  }
+
+ private:
+  int threads_;
+};
+
+TEST_P(SameBits, OnTheHostsThreads) {
+  const auto [rule, model] = GetParam();
+  const auto d = drive(model, 20, 12);
+  const Outcome serial = fuse(*d, {.rule = rule}, make_serial_executor(), 1);
+  const Outcome host = fuse(*d, {.rule = rule}, std::make_shared<HostThreads>(5), 9);
+  EXPECT_EQ(host.executor, "host");
+  EXPECT_EQ(host.hash, serial.hash);
+}
+
 TEST_P(SameBits, AcrossThreadsExecutorsAndBatches) {
+  if (kThreadSanitizer) GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
   const auto [rule, model] = GetParam();
   const auto d = drive(model, 20, 12);
   const MapParams params{.rule = rule};

@@ -2,6 +2,8 @@
 // One signature, three executors: every index once, workers within bounds, and the threads asked for really run.
 #include "evigrid/executor.hpp"
 
+#include "sanitizer.hpp"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -43,6 +45,7 @@ void run(Executor& e, Seen& seen, int wait_us) {
 }
 
 TEST(Executor, EveryIndexOnceAndWorkersInRange) {
+  if (testing::kThreadSanitizer) GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
   for (const char* name : {"serial", "tbb", "openmp"}) {
     for (const int threads : {1, 2, 7}) {
       const auto e = make_executor(name, threads);
@@ -61,6 +64,7 @@ TEST(Executor, EveryIndexOnceAndWorkersInRange) {
 }
 
 TEST(Executor, TheThreadsAskedForReallyRun) {
+  if (testing::kThreadSanitizer) GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
   Seen serial(50), openmp(700);
   run(*make_serial_executor(), serial, 10);
   EXPECT_EQ(serial.threads.size(), 1u);

@@ -83,11 +83,11 @@ void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, dou
       count(report, Refusal::wrong_beam_count);
       continue;
     }
-    const Pose2 p = compose(scan.T_map_robot, s.T_robot_sensor);
-    if (!usable(scan.T_map_robot, cell_m) || !usable(p, cell_m)) {
+    if (!usable(scan.T_map_robot, cell_m)) {
       count(report, Refusal::pose_not_finite, reading.ranges_m.size());
       continue;
     }
+    const Pose2 p = compose(scan.T_map_robot, s.T_robot_sensor);
     const kernels::SensorPose pose{p.x_m, p.y_m, p.yaw_rad};
     if (s.model == Model::beam) {
       gate_fan(reading, c, pose, out, report);
