@@ -159,7 +159,11 @@ struct Lanes {
     }
     return all;
   }
-  static HWY_INLINE bool any(const M& m) { return bits(m) != 0; }
+  static HWY_INLINE bool any(const M& m) {
+    VecMask r = m.v[0];
+    for (int i = 1; i < kUnroll; ++i) r = hn::Or(r, m.v[i]);
+    return !hn::AllFalse(Tag(), r);
+  }
   static HWY_INLINE float reduce_max(const V& v) {
     Vec r = v.v[0];
     for (int i = 1; i < kUnroll; ++i) r = hn::Max(r, v.v[i]);

@@ -18,10 +18,25 @@ struct Source {
   V x, y, v, z, s;  // m(empty), m(occupied), m(unknown), m(empty ∩ occupied), their sum
 };
 
-/// What one combination gives: the new cell, the conflict k of the two normalised operands, and whether the conflict was
-/// total (only Dempster: the cell is then vacuous, by policy).
-template <class V, class M>
+/// A source without paradoxical mass, already normalised: its sum is 1 and costs nothing.
+template <class V>
+struct PlainSource {
+  V x, y, v;
+};
+template <class V>
+EVIGRID_FN V scale(const Source<V>& m) { return m.s; }
+template <class V>
+EVIGRID_FN V scale(const PlainSource<V>&) { return V(1.0f); }
+
+/// What one combination gives: the new cell and the conflict k of the two normalised operands. Rules that can meet total
+/// conflict (Rule::kTotalPossible) say where they did: the cell is then vacuous, by policy.
+template <class V>
 struct Combined {
+  Cell<V> cell;
+  V k;
+};
+template <class V, class M>
+struct CombinedOrTotal {
   Cell<V> cell;
   V k;
   M total;
@@ -61,8 +76,8 @@ template <class V>
 struct Conjunctive {
   V e, o, t, k;
 };
-template <class V>
-EVIGRID_FN Conjunctive<V> conjunctive(const Cell<V>& c, const Source<V>& m) {
+template <class V, class S>
+EVIGRID_FN Conjunctive<V> conjunctive(const Cell<V>& c, const S& m) {
   return {c.a * m.x + (c.a * m.v + c.u * m.x), c.b * m.y + (c.b * m.v + c.u * m.y), c.u * m.v, c.a * m.y + c.b * m.x};
 }
 
@@ -71,6 +86,11 @@ template <class V>
 EVIGRID_FN Source<V> discount(const Source<V>& m, const V& reliability) {
   const V x = m.x * reliability, y = m.y * reliability, z = m.z * reliability;
   return {x, y, mul_add(m.v, reliability, m.s * (V(1.0f) - reliability)), z, m.s};
+}
+
+template <class V>
+EVIGRID_FN PlainSource<V> discount(const PlainSource<V>& m, const V& reliability) {
+  return {m.x * reliability, m.y * reliability, mul_add(m.v, reliability, V(1.0f) - reliability)};
 }
 
 /// The PCR family gives a source's paradoxical mass back to x and y in proportion, halves if both are 0.
@@ -83,10 +103,15 @@ EVIGRID_FN Source<V> give_back(const Source<V>& m) {
           select(shared, m.s * p, m.s)};
 }
 
+template <class V>
+EVIGRID_FN PlainSource<V> give_back(const PlainSource<V>& m) { return m; }
+
 /// Rules without a place for the paradoxical mass drop it.
 template <class V>
 EVIGRID_FN Source<V> drop_paradox(const Source<V>& m) {
   return {m.x, m.y, m.v, V(0.0f), (m.x + m.y) + m.v};
 }
+template <class V>
+EVIGRID_FN PlainSource<V> drop_paradox(const PlainSource<V>& m) { return m; }
 
 EVIGRID_CELL_END

@@ -7,7 +7,7 @@ EVIGRID_CELL_BEGIN
 
 struct ModelHughes1992 {
   template <class V>
-  static EVIGRID_FN Source<V> measure(const ConeReading& q, const Polar<V>& p) {
+  static EVIGRID_FN PlainSource<V> measure(const ConeReading& q, const Polar<V>& p) {
     const V zero(0.0f), one(1.0f);
     const V d = root(p.d2);
     const V sine = min_of(p.nl, p.nr) / nonzero(d);  // sine of the angle to the nearer edge, β − |θ|
@@ -15,7 +15,7 @@ struct ModelHughes1992 {
     const V f = max_of(min_of(mul_add(d, V(q.hughes.slope), V(0.5f)) + angular, one), zero);
     const auto on_arc = p.edge >= zero;
     const V x = select(on_arc, zero, f), y = select(on_arc, f * V(q.hughes.max_occupied), zero);
-    return {x, y, one - (x + y), zero, one};
+    return {x, y, one - (x + y)};
   }
 };
 

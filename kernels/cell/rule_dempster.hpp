@@ -6,18 +6,19 @@
 EVIGRID_CELL_BEGIN
 
 struct Dempster {
-  template <class State, class V>
-  static EVIGRID_FN auto combine(const Cell<V>& c, const Source<V>& source) {
-    const Source<V> m = drop_paradox(source);
+  static constexpr bool kTotalPossible = true;
+  template <class State, class V, class S>
+  static EVIGRID_FN auto combine(const Cell<V>& c, const S& source) {
+    const S m = drop_paradox(source);
     const Conjunctive<V> q = conjunctive(c, m);
     const V sum = (q.e + q.o) + q.t, zero(0.0f), one(1.0f);
-    const auto total = sum <= V(State::kTotal) * m.s;
-    const V all = sum + q.k;  // = m.s up to rounding; one division serves the masses (/ sum) and k (/ all)
+    const auto total = sum <= V(State::kTotal) * scale(m);
+    const V all = sum + q.k;  // = the source's sum up to rounding; one division serves the masses (/ sum) and k (/ all)
     const V r = one / select(total, one, sum * all);
     const V w = r * all;
     const Cell<V> next = settle<State>(Cell<V>{q.e * w, q.o * w, q.t * w});
     using M = decltype(total);
-    return Combined<V, std::remove_const_t<M>>{
+    return CombinedOrTotal<V, std::remove_const_t<M>>{
         {select(total, zero, next.a), select(total, zero, next.b), select(total, one, next.u)},
         select(total, one, (q.k * sum) * r),
         total};

@@ -7,10 +7,10 @@
 EVIGRID_CELL_BEGIN
 
 /// PCR2: k is shared out in proportion to the columns a+x and b+y. `conflict` is k, for GERM-PCR2 z + k.
-template <class State, class V>
-EVIGRID_FN auto share_by_columns(const Cell<V>& c, const Source<V>& m, const Conjunctive<V>& q, const V& conflict) {
+template <class State, class V, class S>
+EVIGRID_FN Combined<V> share_by_columns(const Cell<V>& c, const S& m, const Conjunctive<V>& q, const V& conflict) {
   const V zero(0.0f);
-  const V as = c.a * m.s + m.x, bs = c.b * m.s + m.y;  // columns
+  const V as = c.a * scale(m) + m.x, bs = c.b * scale(m) + m.y;  // columns
   const V d = as + bs;
   const auto none = d <= zero;  // nothing to share by: the conflict goes to unknown
   const V dd = select(none, V(1.0f), d);
@@ -18,34 +18,41 @@ EVIGRID_FN auto share_by_columns(const Cell<V>& c, const Source<V>& m, const Con
   const V t = select(none, q.t + conflict, q.t);
   const V r = V(1.0f) / ((e + o) + t * dd);
   const V w = dd * r;
-  return Combined<V, decltype(d <= zero)>{settle<State>(Cell<V>{e * r, o * r, t * w}), conflict * w, V(1.0f) < zero};
+  return {settle<State>(Cell<V>{e * r, o * r, t * w}), conflict * w};
 }
 
 struct Pcr2 {
-  template <class State, class V>
-  static EVIGRID_FN auto combine(const Cell<V>& c, const Source<V>& source) {
-    const Source<V> m = give_back(source);
+  static constexpr bool kTotalPossible = false;
+  template <class State, class V, class S>
+  static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {
+    const S m = give_back(source);
     const Conjunctive<V> q = conjunctive(c, m);
     return share_by_columns<State>(c, m, q, q.k);
   }
 };
 
 struct GermPcr2 {
-  template <class State, class V>
-  static EVIGRID_FN auto combine(const Cell<V>& c, const Source<V>& m) {
+  static constexpr bool kTotalPossible = false;
+  template <class State, class V, class S>
+  static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& m) {
     const Conjunctive<V> q = conjunctive(c, m);
-    return share_by_columns<State>(c, m, q, q.k + m.z);
+    if constexpr (requires { m.z; }) {
+      return share_by_columns<State>(c, m, q, q.k + m.z);
+    } else {
+      return share_by_columns<State>(c, m, q, q.k);
+    }
   }
 };
 
 /// PCR5: each partial conflict a·y and b·x goes back to its own two parties in proportion to what each put in.
 struct Pcr5 {
-  template <class State, class V>
-  static EVIGRID_FN auto combine(const Cell<V>& c, const Source<V>& source) {
+  static constexpr bool kTotalPossible = false;
+  template <class State, class V, class S>
+  static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {
     const V zero(0.0f), cut(State::kFloors ? 1e-16f : 0.0f);
-    const Source<V> m = give_back(source);
+    const S m = give_back(source);
     const Conjunctive<V> q = conjunctive(c, m);
-    const V as = c.a * m.s, bs = c.b * m.s;
+    const V as = c.a * scale(m), bs = c.b * scale(m);
     const V d1 = nonzero(as + m.y), d2 = nonzero(bs + m.x);
     const V ay = c.a * m.y, bx = c.b * m.x;
     const V p = select(ay > cut, ay, zero) * d2, w = select(bx > cut, bx, zero) * d1;  // p/(d1·d2) = a·y/(a + y)
@@ -53,7 +60,7 @@ struct Pcr5 {
     const V e = q.e * dd + (p * as + w * m.x), o = q.o * dd + (p * m.y + w * bs);
     const V r = V(1.0f) / ((e + o) + q.t * dd);
     const V n = dd * r;
-    return Combined<V, decltype(zero < zero)>{settle<State>(Cell<V>{e * r, o * r, q.t * n}), q.k * n, V(1.0f) < zero};
+    return {settle<State>(Cell<V>{e * r, o * r, q.t * n}), q.k * n};
   }
 };
 

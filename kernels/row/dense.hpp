@@ -9,7 +9,7 @@ EVIGRID_CELL_BEGIN
 
 template <class Rule, class V>
 EVIGRID_FN auto combine_exact(const V& ae, const V& ao, const V& au, const V& be, const V& bo, const V& bu) {
-  return Rule::template combine<Exact>(Cell<V>{ae, ao, au}, Source<V>{be, bo, bu, V(0.0f), V(1.0f)});
+  return Rule::template combine<Exact>(Cell<V>{ae, ao, au}, PlainSource<V>{be, bo, bu});
 }
 
 template <class Rule>
@@ -23,14 +23,15 @@ std::uint64_t dense(const DensePlanes& p, std::size_t begin, std::size_t end) {
     Lanes::store_flat(out[1], r.cell.b);
     Lanes::store_flat(out[2], r.cell.u);
     if (out[3] != nullptr) Lanes::store_flat(out[3], r.k);
-    if (Lanes::any(r.total)) return Lanes::bits(r.total);
-    return std::uint64_t{0};
+    if constexpr (Rule::kTotalPossible) {
+      if (Lanes::any(r.total)) totals += static_cast<std::uint64_t>(Lanes::count(r.total));
+    }
   };
   std::size_t i = begin;
   for (; i + kStep <= end; i += kStep) {
     const float* const in[6] = {p.ae + i, p.ao + i, p.au + i, p.be + i, p.bo + i, p.bu + i};
     float* const out[4] = {p.ce + i, p.co + i, p.cu + i, p.k != nullptr ? p.k + i : nullptr};
-    totals += static_cast<std::uint64_t>(__builtin_popcountll(step(in, out)));
+    step(in, out);
   }
   if (i < end) {  // the rest, through padded copies
     const std::size_t rest = end - i;
@@ -41,7 +42,7 @@ std::uint64_t dense(const DensePlanes& p, std::size_t begin, std::size_t end) {
     }
     const float* const in[6] = {in_pad[0], in_pad[1], in_pad[2], in_pad[3], in_pad[4], in_pad[5]};
     float* const out[4] = {out_pad[0], out_pad[1], out_pad[2], out_pad[3]};
-    totals += static_cast<std::uint64_t>(__builtin_popcountll(step(in, out)));
+    step(in, out);
     float* const to[4] = {p.ce, p.co, p.cu, p.k};
     for (int f = 0; f < 4; ++f) {
       for (std::size_t c = 0; c < rest && to[f] != nullptr; ++c) to[f][i + c] = out_pad[f][c];

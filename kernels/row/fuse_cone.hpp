@@ -67,8 +67,8 @@ struct CellIo {
       k[m] = kConflict ? cell[m] + 3 * kMicroCells : nullptr;
     }
   }
-  template <class Rule>
-  EVIGRID_FN void fuse(int part, const Source<Lanes::V>& source, const Lanes::M& inside, Stats& stats, Lanes::V& max_k) const {
+  template <class Rule, class S>
+  EVIGRID_FN void fuse(int part, const S& source, const Lanes::M& inside, Stats& stats, Lanes::V& max_k) const {
     const Cell<Lanes::V> old{Lanes::load(e, part), Lanes::load(o, part), Lanes::load(u, part)};
     const auto next = Rule::template combine<MapState>(old, source);
     Lanes::store(e, part, inside, next.cell.a);
@@ -78,8 +78,10 @@ struct CellIo {
     if constexpr (kConflict) Lanes::store(k, part, inside, Lanes::load(k, part) + kk);
     max_k = max_of(max_k, kk);
     stats.cells += static_cast<std::uint64_t>(Lanes::count(inside));
-    const auto total = both(inside, next.total);
-    if (Lanes::any(total)) stats.total_conflicts += static_cast<std::uint64_t>(Lanes::count(total));
+    if constexpr (Rule::kTotalPossible) {
+      const auto total = both(inside, next.total);
+      if (Lanes::any(total)) stats.total_conflicts += static_cast<std::uint64_t>(Lanes::count(total));
+    }
   }
 };
 
@@ -107,7 +109,7 @@ void fuse_cone_planes(const TileArgs& a, const ConeReading& q_in, Stats& stats) 
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
       if (!Lanes::any(at.inside)) continue;
-      const Source<Lanes::V> source = discount(Model::measure(q, at.polar), Lanes::V(q.reliability));
+      const auto source = discount(Model::measure(q, at.polar), Lanes::V(q.reliability));
       io.template fuse<Rule>(part, source, at.inside, stats, max_k);
     }
   }
@@ -124,6 +126,22 @@ void fuse_cone(const TileArgs& a, const ConeReading& q, Stats& stats) {
     fuse_cone_planes<Rule, Model, false>(a, q, stats);
   }
 }
+
+/// A source as memory holds it, and back: a plain one keeps its kind, so that both paths run the same functions.
+template <class V>
+EVIGRID_FN Source<V> widen(const Source<V>& m) { return m; }
+template <class V>
+EVIGRID_FN Source<V> widen(const PlainSource<V>& m) { return {m.x, m.y, m.v, V(0.0f), V(1.0f)}; }
+template <class Kind, class V>
+EVIGRID_FN Kind narrow(const Source<V>& m) {
+  if constexpr (requires(Kind k) { k.z; }) {
+    return m;
+  } else {
+    return {m.x, m.y, m.v};
+  }
+}
+template <class Model>
+using SourceOf = decltype(Model::measure(ConeReading{}, Polar<Lanes::V>{}));
 
 /// The same functions, cut in two: masses to memory …
 template <class Model>
@@ -142,7 +160,7 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
     std::uint64_t bits = 0;
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
-      const Source<Lanes::V> s = discount(Model::measure(q, at.polar), Lanes::V(q.reliability));
+      const Source<Lanes::V> s = widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability)));
       alignas(64) float masses[5][Lanes::kLanes];
       const Lanes::V* const from[5] = {&s.x, &s.y, &s.v, &s.z, &s.s};
       float* const to[5] = {out.x, out.y, out.v, out.z, out.s};
@@ -163,7 +181,7 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
 }
 
 /// … and masses from memory into the map.
-template <class Rule, bool kConflict>
+template <class Rule, class Model, bool kConflict>
 void combine_measured_planes(const TileArgs& a, const Measured& in, Stats& stats) {
   constexpr int kPlanes = kConflict ? 4 : 3;
   constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
@@ -188,20 +206,20 @@ void combine_measured_planes(const TileArgs& a, const Measured& in, Stats& stats
       if (!Lanes::any(inside)) continue;
       const Source<Lanes::V> s{Lanes::load(source[0], part), Lanes::load(source[1], part), Lanes::load(source[2], part),
                                Lanes::load(source[3], part), Lanes::load(source[4], part)};
-      io.template fuse<Rule>(part, s, inside, stats, max_k);
+      io.template fuse<Rule>(part, narrow<SourceOf<Model>>(s), inside, stats, max_k);
     }
   }
   const float k = Lanes::reduce_max(max_k);
   if (k > stats.max_conflict) stats.max_conflict = k;
 }
 
-template <class Rule>
+template <class Rule, class Model>
 void combine_measured(const TileArgs& a, const Measured& in, Stats& stats) {
   if (a.micro_count == 0) return;
   if (a.conflict_plane) {
-    combine_measured_planes<Rule, true>(a, in, stats);
+    combine_measured_planes<Rule, Model, true>(a, in, stats);
   } else {
-    combine_measured_planes<Rule, false>(a, in, stats);
+    combine_measured_planes<Rule, Model, false>(a, in, stats);
   }
 }
 

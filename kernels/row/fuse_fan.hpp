@@ -11,12 +11,12 @@ EVIGRID_CELL_BEGIN
 
 /// model `beam` (ours): masses by class, falling linearly with distance.
 template <class V>
-EVIGRID_FN Source<V> measure_beam(const FanReading& q, const V& cls, const V& d) {
+EVIGRID_FN PlainSource<V> measure_beam(const FanReading& q, const V& cls, const V& d) {
   const V zero(0.0f), one(1.0f);
   const V f = neg_mul_add(d, V(q.fall), one);
   const V x = select(cls < V(1.5f), V(q.empty) * f, zero);
   const V y = select(cls > V(1.5f), V(q.occupied) * f, zero);
-  return {x, y, one - (x + y), zero, one};
+  return {x, y, one - (x + y)};
 }
 
 template <class Rule, bool kConflict>
@@ -76,7 +76,8 @@ void fuse_fan_planes(const TileArgs& a, const FanReading& q_in, Stats& stats) {
       const auto at_ring = either(either(within(to_empty), within(to_from)),
                                   either(within(to_to), either(within(d - V(q.near)), within(d - V(q.far)))));
       const auto unsure = both(both(reach, near_fan), either(at_border, at_ring));
-      if (std::uint64_t left_to_do = Lanes::bits(unsure); left_to_do != 0) {
+      if (Lanes::any(unsure)) {
+        std::uint64_t left_to_do = Lanes::bits(unsure);
         alignas(64) float c[Lanes::kLanes], x[Lanes::kLanes], y[Lanes::kLanes], b[Lanes::kLanes];
         Lanes::store_flat(c, cls);
         Lanes::store_flat(x, dx);

@@ -47,7 +47,7 @@ struct KernelTable {
   void (*fuse_cone[kRules][kConeModels])(const TileArgs&, const ConeReading&, Stats&);
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
   void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
-  void (*combine_measured[kRules])(const TileArgs&, const Measured&, Stats&);
+  void (*combine_measured[kRules][kConeModels])(const TileArgs&, const Measured&, Stats&);
   std::uint64_t (*dense[kRules])(const DensePlanes&, std::size_t begin, std::size_t end);
 };
 

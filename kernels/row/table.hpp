@@ -20,7 +20,8 @@ void fill_rule(KernelTable& t, int rule) {
   t.fuse_cone[rule][0] = fuse_cone<Rule, ModelHughes1992>;
   t.fuse_cone[rule][1] = fuse_cone<Rule, ModelLi2014>;
   t.fuse_fan[rule] = fuse_fan<Rule>;
-  t.combine_measured[rule] = combine_measured<Rule>;
+  t.combine_measured[rule][0] = combine_measured<Rule, ModelHughes1992>;
+  t.combine_measured[rule][1] = combine_measured<Rule, ModelLi2014>;
   t.dense[rule] = dense<Rule>;
 }
 

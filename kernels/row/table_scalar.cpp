@@ -13,8 +13,8 @@ const KernelTable& scalar_table() noexcept {
 
 PointMass measure_point(int cone_model, const ConeReading& q, float nl, float nr, float d2, float edge) {
   const scalar::Polar<float> p{nl, nr, d2, edge};
-  const auto m = cone_model == 0 ? scalar::ModelHughes1992::measure(q, p) : scalar::ModelLi2014::measure(q, p);
-  const auto s = scalar::discount(m, q.reliability);
+  const auto s = cone_model == 0 ? scalar::widen(scalar::discount(scalar::ModelHughes1992::measure(q, p), q.reliability))
+                                 : scalar::discount(scalar::ModelLi2014::measure(q, p), q.reliability);
   return {s.x, s.y, s.v, s.z, s.s};
 }
 
@@ -29,7 +29,7 @@ std::uint64_t dense_double_rule(const double* const a[3], const double* const b[
     c[1][i] = r.cell.b;
     c[2][i] = r.cell.u;
     if (k != nullptr) k[i] = r.k;
-    totals += r.total ? 1 : 0;
+    if constexpr (Rule::kTotalPossible) totals += r.total ? 1 : 0;
   }
   return totals;
 }

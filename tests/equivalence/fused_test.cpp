@@ -49,7 +49,7 @@ TEST(Fused, EqualsUnfused) {
           table->fuse_cone[rule][model](args, q, a);
           args.cells = unfused->cells;
           table->measure_cone[model](args, q, *measured);
-          table->combine_measured[rule](args, *measured, b);
+          table->combine_measured[rule][model](args, *measured, b);
         }
         EXPECT_GT(a.cells, 2000u);  // the comparison is not of nothing
         EXPECT_EQ(a.cells, b.cells);
