@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "error.hpp"
 #include "mapping.hpp"
@@ -41,14 +42,16 @@ Sensor configured(const Sensor& from_log, const MappingOptions& o) {
   if (!o.model.empty()) s.model = parse_model(o.model);
   if (fan != (s.model == Model::beam)) {
     throw InputError(fmt::format("--model: {} is for {}, this input holds {}", name(s.model),
-                                 s.model == Model::beam ? "laser fans" : "sonar cones", fan ? "laser fans" : "sonar cones"));
+                                 s.model == Model::beam ? "laser fans" : "sonar cones",
+                                 fan ? "laser fans" : "sonar cones"));
   }
   if (o.max_range_m) s.max_range_m = *o.max_range_m;
   if (fan) {  // beyond what the scanner can tell from "no return" there is nothing to clear
     s.max_range_m = std::min(s.max_range_m, s.no_return_m);
     s.clear_no_return = o.clear_no_return;
   } else if (o.clear_no_return) {
-    throw InputError("--clear-no-return: is for lasers; a sonar that hears no echo does not show that its cone is empty");
+    throw InputError(
+        "--clear-no-return: is for lasers; a sonar that hears no echo does not show that its cone is empty");
   }
   s.reliability = o.reliability.value_or(fan ? 1.0 : s.reliability < 1 ? s.reliability : 0.9);
   if (const auto errors = check(s); !errors.empty()) throw InputError(listed(errors));
@@ -63,7 +66,11 @@ Fused fuse(const Log& log, const MappingOptions& options, Plan plan) {
   Fused out{Map(plan.params, plan.executor), {}, 0, {}, plan.executor};
   std::vector<SensorId> ids;
   for (const Sensor& sensor : sensors) {
-    ids.push_back(out.map.add(sensor));
+    try {
+      ids.push_back(out.map.add(sensor));
+    } catch (const std::invalid_argument& bad) {  // what only map and sensor together can tell: the reach in cells
+      throw InputError(bad.what());
+    }
     const std::string model(name(sensor.model));
     if (std::find(out.models.begin(), out.models.end(), model) == out.models.end()) out.models.push_back(model);
   }
@@ -84,7 +91,8 @@ Fused fuse(const Log& log, const MappingOptions& options, Plan plan) {
     try {
       out.report += out.map.integrate(batch);
     } catch (const std::length_error& full) {
-      throw InputError(fmt::format("the map grows beyond its memory cap: {}; a larger --cell or a shorter --max-range helps", full.what()));
+      throw InputError(fmt::format(
+          "the map grows beyond its memory cap: {}; a larger --cell or a shorter --max-range helps", full.what()));
     }
     out.fusion_s += seconds_since(start);
     progress.show(at + batch.size(), scans.size());

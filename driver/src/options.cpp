@@ -49,7 +49,8 @@ Kernel parse_kernel(const std::string& text) {
 
 std::shared_ptr<Executor> parse_executor(const std::string& text, int threads) {
   if (threads < 0 || threads > kMostThreads) {
-    throw InputError(fmt::format("--threads: {} is not within [0, {}] (0: as many as the machine has)", threads, kMostThreads));
+    throw InputError(
+        fmt::format("--threads: {} is not within [0, {}] (0: as many as the machine has)", threads, kMostThreads));
   }
   if (std::shared_ptr<Executor> executor = make_executor(text, threads)) return executor;
   throw InputError(fmt::format("--executor: '{}' is unknown; known: serial, tbb, openmp", text));
@@ -58,16 +59,19 @@ std::shared_ptr<Executor> parse_executor(const std::string& text, int threads) {
 void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("-o,--out", o.out_dir, "output folder; made when missing")->required();
   command.add_option("--rule", o.rule, "combination rule: " + rule_names())->capture_default_str();
-  command.add_option("--model", o.model, "sensor model: " + model_names() + " (default: beam for lasers, li2014 for sonars)");
+  command.add_option("--model", o.model,
+                     "sensor model: " + model_names() + " (default: beam for lasers, li2014 for sonars)");
   command.add_option("--cell", o.cell_m, "side of a cell, m (default: 0.05 for lasers, 0.1 for sonars)");
   command.add_option("--max-range", o.max_range_m, "m: lasers clear up to it, sonar readings beyond it are refused");
-  command.add_option("--reliability", o.reliability, "Shafer discount in (0, 1] (default: 1 for lasers, 0.9 for sonars)");
+  command.add_option("--reliability", o.reliability,
+                     "Shafer discount in (0, 1] (default: 1 for lasers, 0.9 for sonars)");
   command.add_flag("--clear-no-return", o.clear_no_return, "lasers: a beam without return clears up to --max-range");
   command.add_option("--threads", o.threads, "worker threads; 0: as many as the machine has")->capture_default_str();
   command.add_option("--executor", o.executor, "serial, tbb or openmp; the map is the same")->capture_default_str();
   command.add_option("--kernel", o.kernel, "auto, scalar, avx2 or avx512; the map is the same")->capture_default_str();
   command.add_option("--json", o.json, "also write report.json to this file; - for standard output");
-  command.add_option("--max-image-mb", o.max_image_mb, "refuse masses and pictures larger than this")->capture_default_str();
+  command.add_option("--max-image-mb", o.max_image_mb, "refuse masses and pictures larger than this")
+      ->capture_default_str();
 }
 
 }  // namespace evigrid::driver

@@ -16,7 +16,8 @@ int run_program(int argc, const char* const* argv) {
     CLI::App app("evigrid: range readings in, evidential occupancy map out", "evigrid");
     app.set_version_flag("--version", "evigrid " EVIGRID_VERSION);
     app.require_subcommand(1);
-    app.footer("Every command has --help with examples.\nExit codes: 0 success, 2 bad input or usage, 1 internal error.");
+    app.footer(
+        "Every command has --help with examples.\nExit codes: 0 success, 2 bad input or usage, 1 internal error.");
     add_map(app);
     add_run(app);
     add_cast(app);

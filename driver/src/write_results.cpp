@@ -68,8 +68,12 @@ Json make_report(const Log& log, const Fused& f, const MappingOptions& o, const 
   const auto declared = f.map.sensors();
   for (std::size_t i = 0; i < declared.size(); ++i) {
     const Sensor& s = declared[i];
-    sensors.push_back({{"kind", log.sensors[i].kind}, {"model", name(s.model)}, {"beams", s.beams}, {"max_range_m", s.max_range_m},
-                       {"no_return_m", s.no_return_m}, {"reliability", s.reliability}});
+    sensors.push_back({{"kind", log.sensors[i].kind},
+                       {"model", name(s.model)},
+                       {"beams", s.beams},
+                       {"max_range_m", s.max_range_m},
+                       {"no_return_m", s.no_return_m},
+                       {"reliability", s.reliability}});
   }
   r["sensors"] = sensors;
   r["masses"] = "masses.npy: float32 (4, height, width): e, o, u, running sum of conflict; row 0 is the smallest y";
@@ -78,8 +82,8 @@ Json make_report(const Log& log, const Fused& f, const MappingOptions& o, const 
 
 }  // namespace
 
-void write_results(OutDir& out, const Log& log, const Fused& fused, const MappingOptions& options, Clock::time_point start,
-                   const Json& extra) {
+void write_results(OutDir& out, const Log& log, const Fused& fused, const MappingOptions& options,
+                   Clock::time_point start, const Json& extra) {
   const Layers layers = render_layers(fused.map, options.max_image_mb);
   if (layers.rect.empty()) throw InputError("no reading could be used: all were refused, the map is empty");
   Json report = make_report(log, fused, options, layers);
@@ -88,9 +92,10 @@ void write_results(OutDir& out, const Log& log, const Fused& fused, const Mappin
     if (std::isfinite(scan.T_map_robot.x_m) && std::isfinite(scan.T_map_robot.y_m)) path.push_back(scan.T_map_robot);
   }
   const std::string hash = report["map_hash"];
-  const PictureText text{
-      fmt::format("evigrid: {}, {}, cell {:g} m", report["rule"].get<std::string>(), fmt::join(fused.models, " + "), layers.cell_m),
-      fmt::format("map hash {}, {} scans, {} x {} cells", hash, log.scans.size(), layers.rect.width, layers.rect.height)};
+  const PictureText text{fmt::format("evigrid: {}, {}, cell {:g} m", report["rule"].get<std::string>(),
+                                     fmt::join(fused.models, " + "), layers.cell_m),
+                         fmt::format("map hash {}, {} scans, {} x {} cells", hash, log.scans.size(), layers.rect.width,
+                                     layers.rect.height)};
   const std::vector<std::byte> picture = png(draw_map(layers, path, text));
   const std::string head = npy_head(layers);
   out.write("map.png", picture, {});
@@ -100,7 +105,8 @@ void write_results(OutDir& out, const Log& log, const Fused& fused, const Mappin
   for (const auto& [key, value] : extra.items()) report[key] = value;
   report["fusion_s"] = fused.fusion_s;
   report["wall_s"] = seconds_since(start);
-  const std::string bytes = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // paths may hold any bytes
+  const std::string bytes =
+      report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // paths may hold any bytes
   out.write("report.json", bytes);
   if (!options.json.empty() && options.json != "-") out.write_outside(options.json, bytes);
   out.commit();
@@ -108,8 +114,8 @@ void write_results(OutDir& out, const Log& log, const Fused& fused, const Mappin
     std::cout << bytes;
   } else {
     std::cout << fmt::format("{}: {} scans, {} readings used, {} refused, {} cells updated in {:.3f} s, map hash {}\n",
-                             out.path().string(), log.scans.size(), fused.report.readings_used, fused.report.refused_total(),
-                             fused.report.cells_updated, fused.fusion_s, hash);
+                             out.path().string(), log.scans.size(), fused.report.readings_used,
+                             fused.report.refused_total(), fused.report.cells_updated, fused.fusion_s, hash);
   }
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What both casters have in common: refusing bad questions, and wording an answer.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "evigrid/raycast/cone.hpp"
+#include "tolerance.hpp"
 
 namespace evigrid::raycast {
 
@@ -24,9 +26,11 @@ inline void check_ray(double x_m, double y_m, double angle_rad, double max_range
     throw std::invalid_argument("ray: not finite, or max_range_m is negative");
 }
 
+/// Both range limits are closed, to within kContact_m.
 inline Echo echo_at(double range_m, const ConeQuery& q) {
-  if (range_m > q.max_range_m) return {};
-  return {range_m < q.min_range_m ? EchoStatus::too_close : EchoStatus::ok, range_m};
+  if (range_m > q.max_range_m + kContact_m) return {};
+  if (range_m < q.min_range_m - kContact_m) return {EchoStatus::too_close, range_m};
+  return {EchoStatus::ok, std::clamp(range_m, q.min_range_m, q.max_range_m)};
 }
 
 }  // namespace evigrid::raycast

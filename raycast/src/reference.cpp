@@ -11,100 +11,17 @@
 #include <vector>
 
 #include "query.hpp"
+#include "reference_polar.hpp"
 #include "surface.hpp"
 #include "tolerance.hpp"
 
 namespace evigrid::raycast {
 namespace {
 
+using namespace reference;
+
 constexpr double kPi = std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A part of a surface narrower than this is one ray: it is looked at by itself.
-constexpr double kOneRay_rad = 1e-8;
-
-double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * kPi); }
-
-/// A surface in polar terms around the sensor, angles relative to the axis of the cone.
-struct Polar {
-  bool round = false;
-  double towards_rad = 0;   ///< foot of the perpendicular, or centre
-  double distance_m = 0;    ///< of the line, or of the centre
-  double radius_m = 0;      ///< circle
-  double begin_rad = 0;     ///< segment: first end, and from there counter-clockwise
-  double span_rad = 0;      ///< to the other end, < π
-  double nearer_end_m = 0;  ///< segment
-  double farther_end_m = 0;
-  double critical_rad = 0;
-  bool point = false;    ///< no direction of its own: echoes to every side
-  bool contact = false;  ///< the sensor stands on it
-  [[nodiscard]] bool inside() const { return round && distance_m < radius_m; }
-  [[nodiscard]] bool edge_on() const { return !round && span_rad < kOneRay_rad; }
-};
-
-Polar segment(const Surface& s, double axis_rad) {
-  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, size = std::hypot(dx, dy);
-  const double to_a = std::hypot(s.a.x, s.a.y), to_b = std::hypot(s.b.x, s.b.y);
-  const double angle_a = wrapped(std::atan2(s.a.y, s.a.x) - axis_rad);
-  const double angle_b = wrapped(std::atan2(s.b.y, s.b.x) - axis_rad);
-  const double turn = wrapped(angle_b - angle_a);
-  Polar p;
-  p.begin_rad = turn >= 0 ? angle_a : angle_b;
-  p.span_rad = std::abs(turn);
-  p.nearer_end_m = std::min(to_a, to_b);
-  p.farther_end_m = std::max(to_a, to_b);
-  p.critical_rad = s.critical_incidence_rad;
-  p.point = size <= kContact_m;
-  if (p.point) {
-    p.towards_rad = angle_a;
-    p.distance_m = to_a;
-    p.contact = to_a <= kContact_m;
-    return p;
-  }
-  const double signed_height = (s.a.x * dy - s.a.y * dx) / size;  // normal (dy, −dx)/size points at the foot if > 0
-  const double side = signed_height < 0 ? -1 : 1;
-  p.towards_rad = wrapped(std::atan2(-side * dx, side * dy) - axis_rad);
-  p.distance_m = std::abs(signed_height);
-  const double along = -(s.a.x * dx + s.a.y * dy) / size;
-  p.contact = std::min(to_a, to_b) <= kContact_m || (p.distance_m <= kContact_m && along >= 0 && along <= size);
-  return p;
-}
-
-Polar polar(const Surface& s, double axis_rad) {
-  if (s.kind == Surface::Kind::segment) return segment(s, axis_rad);
-  Polar p;
-  p.round = true;
-  p.towards_rad = wrapped(std::atan2(s.a.y, s.a.x) - axis_rad);
-  p.distance_m = std::hypot(s.a.x, s.a.y);
-  p.radius_m = s.radius;
-  p.critical_rad = s.critical_incidence_rad;
-  p.contact = std::abs(p.distance_m - p.radius_m) <= kContact_m;
-  return p;
-}
-
-/// Distance along the ray at this angle; +∞ when it misses.
-double range_at(const Polar& p, double angle_rad) {
-  const double off = wrapped(angle_rad - p.towards_rad);
-  if (p.round) {
-    const double sine = p.distance_m * std::sin(off);
-    const double half_chord = std::sqrt(std::max(0.0, p.radius_m * p.radius_m - sine * sine));
-    if (p.inside()) return p.distance_m * std::cos(off) + half_chord;
-    if (std::abs(off) > std::asin(std::min(1.0, p.radius_m / p.distance_m)) + kHidingSlack_rad) return kInfinity;
-    return p.distance_m * std::cos(off) - half_chord;
-  }
-  const double after_begin = wrapped(angle_rad - p.begin_rad - p.span_rad / 2) + p.span_rad / 2;
-  if (after_begin < -kHidingSlack_rad || after_begin > p.span_rad + kHidingSlack_rad) return kInfinity;
-  if (p.edge_on()) return p.nearer_end_m;
-  const double cosine = std::cos(off);
-  return cosine > 0 ? std::min(p.distance_m / cosine, p.farther_end_m) : p.farther_end_m;
-}
-
-bool echoes(const Polar& p, double angle_rad) {
-  if (p.point || p.critical_rad + kEdgeSlack_rad >= kPi / 2) return true;
-  const double off = std::abs(wrapped(angle_rad - p.towards_rad));
-  if (!p.round) return off <= p.critical_rad + kEdgeSlack_rad;
-  const double sine = p.radius_m > 0 ? std::min(1.0, p.distance_m * std::sin(off) / p.radius_m) : 0;
-  return std::asin(sine) <= p.critical_rad + kEdgeSlack_rad;
-}
 
 class Sweep {
  public:
@@ -123,9 +40,8 @@ class Sweep {
   double nearest_m() {
     if (contact_) return 0;
     for (std::size_t i = 0; i + 1 < events_.size(); ++i)
-      if (events_[i + 1] > events_[i]) look(events_[i], events_[i + 1]);
-    for (double angle : single_rays_)
-      if (std::abs(angle) <= half_rad_) look(angle, angle);
+      if (events_[i + 1] - events_[i] > kEventRounding_rad) look(events_[i], events_[i + 1]);
+    for (double angle : events_) look_along(angle);
     return best_m_;
   }
 
@@ -147,11 +63,6 @@ class Sweep {
       add_event(p.begin_rad + p.span_rad);
       add_event(p.towards_rad + p.critical_rad);
       add_event(p.towards_rad - p.critical_rad);
-    }
-    if (p.edge_on()) single_rays_.push_back(wrapped(p.begin_rad + p.span_rad / 2));
-    if (p.round ? p.radius_m * std::sin(p.critical_rad) < kOneRay_rad * p.distance_m : p.critical_rad < kOneRay_rad) {
-      single_rays_.push_back(p.towards_rad);
-      if (p.inside()) single_rays_.push_back(wrapped(p.towards_rad + kPi));
     }
   }
 
@@ -180,12 +91,6 @@ class Sweep {
       }
     }
   }
-
-  static double least_m(const Polar& p) {
-    if (p.round) return p.inside() ? p.radius_m - p.distance_m : p.distance_m - p.radius_m;
-    return std::min(p.distance_m, p.nearer_end_m);
-  }
-  static double most_m(const Polar& p) { return p.round ? p.distance_m + p.radius_m : p.farther_end_m; }
 
   static void add_corners(const Polar& p, std::vector<double>& angles) {
     angles.push_back(p.towards_rad);
@@ -220,8 +125,22 @@ class Sweep {
     for (const Polar& p : seen_) first = std::min(first, range_at(p, middle));
     if (first == kInfinity) return;
     for (const Polar& p : seen_)
-      if (range_at(p, middle) <= first + kTie * (1 + first) && echoes(p, middle))
+      if (range_at(p, middle) <= first + kTie * (1 + first) && reaches(p, middle) && echoes(p, middle))
         best_m_ = std::min(best_m_, least(p, begin_rad, end_rad));
+  }
+
+  /// Surfaces whose echoing part in the cone is this one ray: edge-on, at its critical incidence, on the cone's edge.
+  void look_along(double angle_rad) {
+    const auto there = [&](const Polar& p, double a) {
+      return std::abs(a) <= half_rad_ && reaches(p, a) && range_at(p, a) < kInfinity && echoes(p, a);
+    };
+    double first = kInfinity;
+    for (const Polar& p : seen_) first = std::min(first, range_at(p, angle_rad));
+    for (const Polar& p : seen_) {
+      const double range = range_at(p, angle_rad);
+      if (range > first + kTie * (1 + first) || range >= best_m_ || !there(p, angle_rad)) continue;
+      if (p.edge_on() || (!there(p, angle_rad - kOneRay_rad) && !there(p, angle_rad + kOneRay_rad))) best_m_ = range;
+    }
   }
 
   static double least(const Polar& p, double begin_rad, double end_rad) {
@@ -239,7 +158,7 @@ class Sweep {
   bool contact_ = false;
   double best_m_ = kInfinity;
   std::vector<Polar> seen_;
-  std::vector<double> events_, single_rays_;
+  std::vector<double> events_;
 };
 
 }  // namespace

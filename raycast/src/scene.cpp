@@ -66,20 +66,21 @@ Echo Scene::cast_cone(const ConeQuery& q) const {
   check(q);
   const Vec2 apex{q.x_m, q.y_m};
   const Wedge wedge = make_wedge(q.yaw_rad, q.aperture_rad);
+  const double reach_m = q.max_range_m + kContact_m;
   Nearest nearest(impl_->index, apex, wedge);
-  impl_->index.visit_near(apex, q.max_range_m, nearest);
+  impl_->index.visit_near(apex, reach_m, nearest);
   const double first_m = std::min(nearest.echo_m, nearest.silent_m);
-  if (first_m > q.max_range_m) return {};
+  if (first_m > reach_m) return {};
   // A silent surface at the same distance might be the one in front: that is for the exact solution.
   if (nearest.echo_m + kContact_m < nearest.silent_m || nearest.echo_m == 0) return echo_at(nearest.echo_m, q);
 
   Collect collect;
-  impl_->index.visit_near(apex, q.max_range_m, collect);
+  impl_->index.visit_near(apex, reach_m, collect);
   std::sort(collect.surfaces.begin(), collect.surfaces.end());  // whatever order the tree gave
   std::vector<Surface> around;
   around.reserve(collect.surfaces.size());
   for (std::uint32_t i : collect.surfaces) around.push_back(seen_from(impl_->index.surface(i), apex));
-  return echo_at(nearest_visible_echo(around, wedge, q.max_range_m), q);
+  return echo_at(nearest_visible_echo(around, wedge, reach_m), q);
 }
 
 double Scene::ray_range(double x_m, double y_m, double angle_rad, double max_range_m) const {

@@ -57,14 +57,22 @@ void push_special(MassArray<T>& out, Engine& engine) {
   const T s = static_cast<T>(unit(engine));
   const T tiny = static_cast<T>(std::pow(10.0, -6 - 25 * unit(engine)));
   switch (engine() % 8) {
-    case 0: return out.push(1, 0, 0);
-    case 1: return out.push(0, 1, 0);
-    case 2: return out.push(0, 0, 1);
-    case 3: return push_normalised(out, s, T(0));
-    case 4: return push_normalised(out, T(0), s);
-    case 5: return push_normalised(out, s, static_cast<T>(T(1) - s));
-    case 6: return push_normalised(out, tiny, s);
-    default: return push_normalised(out, s, tiny);
+    case 0:
+      return out.push(1, 0, 0);
+    case 1:
+      return out.push(0, 1, 0);
+    case 2:
+      return out.push(0, 0, 1);
+    case 3:
+      return push_normalised(out, s, T(0));
+    case 4:
+      return push_normalised(out, T(0), s);
+    case 5:
+      return push_normalised(out, s, static_cast<T>(T(1) - s));
+    case 6:
+      return push_normalised(out, tiny, s);
+    default:
+      return push_normalised(out, s, tiny);
   }
 }
 

@@ -2,7 +2,8 @@
 // CARMEN text logs. One record per line, keyword first:
 //   FLASER|RLASER n r1..rn x y theta odom_x odom_y odom_theta ipc_time host logger_time
 //   ROBOTLASER1|2 type start_rad fov_rad step_rad max_range_m accuracy remission_mode n r1..rn m i1..im
-//                 laser_x laser_y laser_theta robot_x robot_y robot_theta tv rv forward side turn_axis ipc_time host time
+//                 laser_x laser_y laser_theta robot_x robot_y robot_theta tv rv forward side turn_axis ipc_time host
+//                 time
 // Metres, radians counter-clockwise; the pose is the laser's own, so the mount is the identity.
 // Beam 0 of FLASER and RLASER looks to −90°; the step is 1° for 180 or 181 beams, 0.5° for 360 or 361, else 180°/n.
 #include <fmt/format.h>
@@ -40,7 +41,8 @@ double number(const std::vector<std::string_view>& tokens, std::size_t at) {
 std::size_t count(const std::vector<std::string_view>& tokens, std::size_t at, double least) {
   const double value = number(tokens, at);
   if (!(value >= least && value <= kMaxBeams) || value != std::floor(value)) {
-    throw Malformed{"wrong count", fmt::format("field {}: '{}' is no number of beams", at + 1, tokens[at].substr(0, 24))};
+    throw Malformed{"wrong count",
+                    fmt::format("field {}: '{}' is no number of beams", at + 1, tokens[at].substr(0, 24))};
   }
   return static_cast<std::size_t>(value);
 }
@@ -91,6 +93,13 @@ Sensor fan(std::size_t beams, double first_rad, double step_rad) {
   return s;
 }
 
+/// A geometry that the engine could never take makes the record useless, not the log.
+void require_usable(const Sensor& sensor) {
+  if (const auto errors = check(sensor); !errors.empty()) {
+    throw Malformed{"unusable geometry", errors.front().field + " " + errors.front().reason};
+  }
+}
+
 void ranges(const std::vector<std::string_view>& t, std::size_t first, std::size_t n, std::vector<float>& out) {
   out.clear();
   for (std::size_t i = 0; i < n; ++i) out.push_back(static_cast<float>(number(t, first + i)));
@@ -104,7 +113,9 @@ void read_flaser(const std::vector<std::string_view>& t, Log& log, std::vector<f
   const std::size_t p = kHead + n;
   const Pose2 pose{number(t, p), number(t, p + 1), number(t, p + 2)};
   const std::int64_t stamp = stamp_ns(number(t, p + kPoses));
-  append(log, sensor_index(log, t[0], fan(n, -90 * kDeg, flaser_step_rad(n))), stamp, pose, scratch);
+  const Sensor sensor = fan(n, -90 * kDeg, flaser_step_rad(n));
+  require_usable(sensor);
+  append(log, sensor_index(log, t[0], sensor), stamp, pose, scratch);
 }
 
 void read_robotlaser(const std::vector<std::string_view>& t, Log& log, std::vector<float>& scratch) {
@@ -115,13 +126,18 @@ void read_robotlaser(const std::vector<std::string_view>& t, Log& log, std::vect
   const std::size_t remissions = count(t, kCount + 1 + n, 0);
   const std::size_t p = kCount + 2 + n + remissions;
   expect_fields(t.size(), p + kPoses + kAfterPoses + kTail, n);
-  Sensor sensor = fan(n, number(t, 2), number(t, 4));
-  if (!std::isfinite(sensor.first_beam_rad) || !std::isfinite(sensor.beam_step_rad) || sensor.beam_step_rad == 0 ||
-      std::abs(sensor.beam_step_rad) * static_cast<double>(n - 1) > 2 * std::numbers::pi + 1e-6) {
-    throw Malformed{"bad number", "start angle or angular resolution is no angle"};
+  double first_rad = number(t, 2), step_rad = number(t, 4);
+  const bool clockwise = step_rad < 0;
+  if (clockwise) {  // counted from the other end
+    first_rad += step_rad * static_cast<double>(n - 1);
+    step_rad = -step_rad;
   }
-  if (const double stated_m = number(t, 5); stated_m > 0 && stated_m < sensor.no_return_m) sensor.no_return_m = stated_m;
+  Sensor sensor = fan(n, first_rad, step_rad);
+  if (const double stated_m = number(t, 5); stated_m > 1 && stated_m < sensor.no_return_m)
+    sensor.no_return_m = stated_m;
+  require_usable(sensor);
   ranges(t, kCount + 1, n, scratch);
+  if (clockwise) std::reverse(scratch.begin(), scratch.end());
   const Pose2 pose{number(t, p), number(t, p + 1), number(t, p + 2)};
   const std::int64_t stamp = stamp_ns(number(t, p + kPoses + kAfterPoses));
   append(log, sensor_index(log, t[0], sensor), stamp, pose, scratch);
@@ -181,8 +197,8 @@ void find_no_return(Log& log) {
     }
     std::size_t close = 0;
     for (const auto beams : mine) {
-      close += static_cast<std::size_t>(
-          std::count_if(beams.begin(), beams.end(), [&](float r) { return std::isfinite(r) && r >= largest_m - kPlateau_m; }));
+      close += static_cast<std::size_t>(std::count_if(
+          beams.begin(), beams.end(), [&](float r) { return std::isfinite(r) && r >= largest_m - kPlateau_m; }));
     }
     if (largest_m >= kLeast_m && close >= 2) {
       s.no_return_m = std::min(s.no_return_m, static_cast<double>(largest_m - kPlateau_m));

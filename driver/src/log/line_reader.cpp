@@ -47,7 +47,8 @@ bool LineReader::fill() {
     begin_ = 0;
   }
   if (end_ == buffer_.size()) {
-    if (buffer_.size() >= kMaxLine) throw InputError(fmt::format("{}:{}: not a text log: a line of over 16 MiB", path_, line_ + 1));
+    if (buffer_.size() >= kMaxLine)
+      throw InputError(fmt::format("{}:{}: not a text log: a line of over 16 MiB", path_, line_ + 1));
     buffer_.resize(buffer_.size() * 2);
   }
   errno = 0;

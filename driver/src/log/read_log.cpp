@@ -75,14 +75,15 @@ Log read_log(const std::vector<std::string>& paths, const std::string& format) {
   if (log.scans.empty()) {
     std::string why;
     if (!log.warnings.empty()) why = "; first: " + log.warnings.front();
-    throw InputError(fmt::format("no usable record in {}: read as {}, {} kinds of other records, {} malformed{}",
-                                 fmt::join(paths, ", "), log.format, log.skipped.size(),
-                                 [&] {
-                                   std::uint64_t n = 0;
-                                   for (const auto& [reason, times] : log.malformed) n += times;
-                                   return n;
-                                 }(),
-                                 why));
+    throw InputError(fmt::format(
+        "no usable record in {}: read as {}, {} kinds of other records, {} malformed{}", fmt::join(paths, ", "),
+        log.format, log.skipped.size(),
+        [&] {
+          std::uint64_t n = 0;
+          for (const auto& [reason, times] : log.malformed) n += times;
+          return n;
+        }(),
+        why));
   }
   return log;
 }

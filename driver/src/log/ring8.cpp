@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180;
 constexpr int kSonars = 8;
-constexpr double kBearing_rad[kSonars] = {-90 * kDeg,  -37.5 * kDeg, -22.5 * kDeg, -7.5 * kDeg,
+constexpr double kBearing_rad[kSonars] = {-90 * kDeg, -37.5 * kDeg, -22.5 * kDeg, -7.5 * kDeg,
                                           7.5 * kDeg, 22.5 * kDeg,  37.5 * kDeg,  90 * kDeg};
 constexpr double kNoEcho_mm = 5110;
 
@@ -46,7 +46,8 @@ void for_each_row(const std::string& path, std::size_t width, Log& log, Row row)
     while (at < width && parse_number(tokens[at], values[at])) ++at;
     if (at < width || !(std::abs(values[0]) < 9e12)) {
       at = at < width ? at : 0;
-      log.reject(path, lines.line_number(), "bad number", fmt::format("field {} is '{}'", at + 1, tokens[at].substr(0, 24)));
+      log.reject(path, lines.line_number(), "bad number",
+                 fmt::format("field {} is '{}'", at + 1, tokens[at].substr(0, 24)));
       continue;
     }
     row(lines.line_number(), values);

@@ -16,7 +16,8 @@ Canvas::Canvas(int width, int height, Rgb fill)
 
 void Canvas::set(int x, int y, Rgb colour) {
   if (x < 0 || y < 0 || x >= width_ || y >= height_) return;
-  std::uint8_t* p = &pixels_[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
+  std::uint8_t* p =
+      &pixels_[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x))];
   p[0] = colour.r;
   p[1] = colour.g;
   p[2] = colour.b;

@@ -25,7 +25,9 @@ class Canvas {
   void text(int x, int y, std::string_view, int scale, Rgb);
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
-  [[nodiscard]] const std::uint8_t* row(int y) const { return &pixels_[static_cast<std::size_t>(y) * 3 * static_cast<std::size_t>(width_)]; }
+  [[nodiscard]] const std::uint8_t* row(int y) const {
+    return &pixels_[static_cast<std::size_t>(y) * 3 * static_cast<std::size_t>(width_)];
+  }
 
  private:
   int width_, height_;

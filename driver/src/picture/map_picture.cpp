@@ -29,7 +29,9 @@ std::uint8_t mix(float e, float o, float u, float c, std::uint8_t Rgb::*part) {
 struct Frame {  // from frame M to pixels
   int left, top, scale;
   const Layers& layers;
-  [[nodiscard]] double x(double x_m) const { return left + (x_m / layers.cell_m - static_cast<double>(layers.rect.x)) * scale; }
+  [[nodiscard]] double x(double x_m) const {
+    return left + (x_m / layers.cell_m - static_cast<double>(layers.rect.x)) * scale;
+  }
   [[nodiscard]] double y(double y_m) const {
     return top + (static_cast<double>(layers.rect.y + layers.rect.height) - y_m / layers.cell_m) * scale;
   }
@@ -40,8 +42,8 @@ void draw_cells(Canvas& canvas, const Frame& f) {
   for (std::int64_t y = 0; y < l.rect.height; ++y) {
     for (std::int64_t x = 0; x < l.rect.width; ++x) {
       const auto i = static_cast<std::size_t>(y * l.rect.width + x);
-      canvas.rect(f.left + static_cast<int>(x) * f.scale, f.top + static_cast<int>(l.rect.height - 1 - y) * f.scale, f.scale,
-                  f.scale, cell_colour(l.e()[i], l.o()[i], l.u()[i], l.conflict()[i]));
+      canvas.rect(f.left + static_cast<int>(x) * f.scale, f.top + static_cast<int>(l.rect.height - 1 - y) * f.scale,
+                  f.scale, f.scale, cell_colour(l.e()[i], l.o()[i], l.u()[i], l.conflict()[i]));
     }
   }
 }
@@ -70,7 +72,8 @@ double bar_length_m(double px_per_m, double room_px) {
 
 void draw_foot(Canvas& canvas, const Frame& f, int y, bool with_path) {
   int x = kMargin_px;
-  for (const auto& [colour, label] : {std::pair{kEmpty, "empty"}, {kOccupied, "occupied"}, {kUnknown, "unknown"}, {kConflict, "conflict"}}) {
+  for (const auto& [colour, label] :
+       {std::pair{kEmpty, "empty"}, {kOccupied, "occupied"}, {kUnknown, "unknown"}, {kConflict, "conflict"}}) {
     canvas.rect(x, y, 18, 14, kInk);
     canvas.rect(x + 1, y + 1, 16, 12, colour);
     canvas.text(x + 24, y, label, 2, kInk);

@@ -16,7 +16,9 @@ void append(png_structp png_ptr, png_bytep data, png_size_t size) {
   out->insert(out->end(), from, from + size);
 }
 
-[[noreturn]] void fail(png_structp, png_const_charp message) { throw std::runtime_error(std::string("libpng: ") + message); }
+[[noreturn]] void fail(png_structp, png_const_charp message) {
+  throw std::runtime_error(std::string("libpng: ") + message);
+}
 void ignore(png_structp, png_const_charp) {}
 
 struct Writer {

@@ -19,34 +19,34 @@ struct Point {
 
 /// A straight piece of wall without thickness. Of length 0 it is a post that echoes towards every side.
 struct Wall {
-  Point from, to;
-  Material material;
+  Point from{}, to{};
+  Material material{};
 };
 
 /// A rectangle: `length_m` along its own x axis, which points to `yaw_rad`; only its outline is a surface.
 struct Box {
-  Point centre;
+  Point centre{};
   double length_m = 0, width_m = 0, yaw_rad = 0;
-  Material material;
+  Material material{};
 };
 
 struct Circle {
-  Point centre;
+  Point centre{};
   double radius_m = 0;
-  Material material;
+  Material material{};
 };
 
 /// Closed outline: the last vertex is joined to the first. At least two vertices; it may be concave.
 struct Polygon {
-  std::vector<Point> vertices;
-  Material material;
+  std::vector<Point> vertices{};
+  Material material{};
 };
 
 struct World {
-  std::vector<Wall> walls;
-  std::vector<Box> boxes;
-  std::vector<Circle> circles;
-  std::vector<Polygon> polygons;
+  std::vector<Wall> walls{};
+  std::vector<Box> boxes{};
+  std::vector<Circle> circles{};
+  std::vector<Polygon> polygons{};
 };
 
 }  // namespace evigrid::raycast

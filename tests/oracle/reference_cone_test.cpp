@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// evigrid::Map against the slow reference on sonar cones: every heading, exactly aligned poses, rings in a row.
+#include <numbers>
+#include <random>
+
+#include "tests/oracle/compare_maps.hpp"
+
+namespace {
+
+using namespace oracle;
+using evigrid::MapParams;
+using evigrid::Model;
+using evigrid::Pose2;
+using evigrid::Rule;
+using evigrid::Sensor;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+Sensor sonar(Model model, double aperture_deg) {
+  Sensor s;
+  s.model = model;
+  s.aperture_rad = aperture_deg * kDegree;
+  s.min_range_m = 0.1;
+  s.max_range_m = 5;
+  s.reliability = model == Model::li2014 ? 0.9 : 1;
+  return s;
+}
+
+class ReferenceCone : public testing::TestWithParam<Model> {};
+
+TEST_P(ReferenceCone, EveryHeadingByHalfDegrees) {
+  for (double aperture_deg : {15.0, 25.0, 30.0}) {
+    Difference all;
+    for (int half = 0; half < 720; ++half) {
+      const Rule rule = evigrid::all_rules()[half % evigrid::kRuleCount];
+      const float range_m = 0.4F + 0.0061F * static_cast<float>(half);
+      SCOPED_TRACE(testing::Message() << aperture_deg << " deg, heading " << half * 0.5 << ' ' << name(rule));
+      all.merge(once({.cell_m = 0.1, .rule = rule}, sonar(GetParam(), aperture_deg),
+                     {0.731 + 0.013 * half, -1.17, half * 0.5 * kDegree}, {&range_m, 1}));
+    }
+    expect_within_bounds(all);
+    print(std::string(name(GetParam())) + " headings " + std::to_string(static_cast<int>(aperture_deg)), all);
+  }
+}
+
+// Edges horizontal, vertical, diagonal and through centres; the apex on centres, corners, borders; arcs through
+// centres.
+TEST_P(ReferenceCone, ExactlyAlignedPoses) {
+  const double cell = 0.125;
+  for (double aperture_deg : {15.0, 25.0, 30.0}) {
+    Difference all;
+    for (double edge_rad : {0.0, 45 * kDegree, 90 * kDegree, 135 * kDegree, 180 * kDegree, 225 * kDegree, 270 * kDegree,
+                            315 * kDegree, std::atan2(1, 2), std::atan2(2, 1), std::atan2(-3, 4)})
+      for (double turn : {-0.5, 0.0, 0.5})  // the left edge, the axis, the right edge on that direction
+        for (double ox : {0.0, 0.5, 0.25})
+          for (double oy : {0.0, 0.5})
+            for (float cells : {4.0F, 8.0F, 20.0F, 32.5F}) {
+              const Pose2 pose{(3 + ox) * cell, (-7 + oy) * cell, edge_rad + turn * aperture_deg * kDegree};
+              const float range_m = cells * static_cast<float>(cell);
+              SCOPED_TRACE(testing::Message() << aperture_deg << " deg, pose " << pose.x_m << ' ' << pose.y_m << ' '
+                                              << pose.yaw_rad << ", range " << range_m);
+              all.merge(once({.cell_m = cell}, sonar(GetParam(), aperture_deg), pose, {&range_m, 1}));
+            }
+    expect_within_bounds(all);
+    print(std::string(name(GetParam())) + " aligned " + std::to_string(static_cast<int>(aperture_deg)), all);
+  }
+}
+
+/// A ring of `count` sonars at radius_m, driven along a random way: many readings of the same cells.
+Difference drive_ring(Model model, Rule rule, double aperture_deg, double reliability, Pose2 start, double cell_m,
+                      int scans, bool with_bad = false) {
+  constexpr int kCount = 24;
+  Both both({.cell_m = cell_m, .rule = rule});
+  std::vector<evigrid::SensorId> ids;
+  for (int i = 0; i < kCount; ++i) {
+    Sensor s = sonar(model, aperture_deg);
+    const double bearing = i * 2 * std::numbers::pi / kCount;
+    s.T_robot_sensor = {0.353 * std::cos(bearing), 0.353 * std::sin(bearing), bearing};
+    s.reliability = reliability;
+    ids.push_back(both.add(s));
+  }
+  std::mt19937_64 engine(17);
+  std::uniform_real_distribution<double> unit(0, 1);
+  Pose2 pose = start;
+  for (int n = 0; n < scans; ++n) {
+    std::vector<float> ranges;
+    for (int i = 0; i < kCount; ++i) ranges.push_back(static_cast<float>(0.1 + 3.9 * unit(engine)));
+    if (with_bad) {
+      ranges[0] = NAN, ranges[1] = -INFINITY, ranges[2] = INFINITY, ranges[3] = -2, ranges[4] = 0.05F;
+      ranges[5] = 1000, ranges[6] = 5.5F, ranges[7] = 1e30F, ranges[8] = -0.0F, ranges[9] = 5.0F;
+    }
+    std::vector<evigrid::Reading> readings;
+    for (int i = 0; i < kCount; ++i) readings.push_back({ids[i], {&ranges[i], 1}});
+    if (with_bad) readings.push_back({99, {ranges.data(), 3}}), readings.push_back({ids[10], {ranges.data() + 10, 2}});
+    both.integrate(evigrid::Scan{with_bad && n == 3 ? 0 : n + 1, pose, readings});
+    pose.x_m += 0.06 * unit(engine), pose.y_m += 0.05 * unit(engine), pose.yaw_rad += 0.3 * (unit(engine) - 0.4);
+  }
+  both.expect_equal_reports();
+  return both.difference();
+}
+
+TEST_P(ReferenceCone, RingScansInARowUnderEveryRule) {
+  for (Rule rule : evigrid::all_rules())
+    for (double reliability : {1.0, 0.9}) {
+      const Difference d = drive_ring(GetParam(), rule, 25, reliability, {0.2, 0.1, 0.05}, 0.1, 30);
+      SCOPED_TRACE(testing::Message() << name(rule) << " reliability " << reliability);
+      EXPECT_GE(d.most_updates, 30U);
+      expect_within_bounds(d);
+      print(std::string(name(GetParam())) + " ring " + std::string(name(rule)) + (reliability < 1 ? " 0.9" : " 1"), d);
+    }
+}
+
+TEST_P(ReferenceCone, FiveSinglePassesUnderEveryRuleAndAperture) {
+  for (Rule rule : evigrid::all_rules())
+    for (double aperture_deg : {15.0, 30.0}) {
+      SCOPED_TRACE(testing::Message() << name(rule) << ' ' << aperture_deg);
+      expect_within_bounds(drive_ring(GetParam(), rule, aperture_deg, 0.95, {-3.3, 8.1, 2}, 0.05, 5));
+    }
+}
+
+TEST_P(ReferenceCone, UtmSizedCoordinates) {
+  for (double cell_m : {0.1, 0.05}) {
+    const Difference d = drive_ring(GetParam(), Rule::pcr5, 25, 0.9, {500000.123, 5000000.456, 1.1}, cell_m, 8);
+    expect_within_bounds(d);
+    print(std::string(name(GetParam())) + " UTM cell " + std::to_string(cell_m), d);
+  }
+}
+
+TEST_P(ReferenceCone, RefusedReadingsAreCountedByReason) {
+  expect_within_bounds(drive_ring(GetParam(), Rule::pcr5, 25, 0.9, {0.2, 0.1, 0.05}, 0.1, 6, true));
+}
+
+TEST_P(ReferenceCone, NoFinitePoseRefusesEveryRange) {
+  Both both(MapParams{});
+  const auto id = both.add(sonar(GetParam(), 25));
+  const float range_m = 2;
+  both.integrate({NAN, 0, 0}, id, {&range_m, 1});
+  both.integrate({0, INFINITY, 0}, id, {&range_m, 1});
+  both.integrate({0, 0, NAN}, id, {&range_m, 1});
+  both.expect_equal_reports();
+  EXPECT_EQ(both.engine().bounds(), evigrid::CellRect{});
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, ReferenceCone, testing::Values(Model::hughes1992, Model::li2014),
+                         [](const auto& model) { return std::string(name(model.param)); });
+
+// Only the division by the own sum and the floors of the state keep a cell normalised under an endless run.
+TEST(ReferenceCell, SumsStayNearOneOverHundredThousandReadings) {
+  for (Rule rule : evigrid::all_rules()) {
+    evigrid::Map map({.cell_m = 0.5, .rule = rule});
+    const auto id = map.add(sonar(Model::li2014, 15));
+    double worst = 0;
+    for (int n = 0; n < 100'000; ++n) {
+      const float range_m = n % 3 == 0 ? 1.0F : 2.0F;
+      const evigrid::Reading reading{id, {&range_m, 1}};
+      map.integrate(evigrid::Scan{n, {0.25, 0.25, 0}, {&reading, 1}});
+      const evigrid::Mass m = map.mass({2, 0});
+      worst = std::max(worst, std::fabs(static_cast<double>(m.e) + m.o + m.u - 1));
+      ASSERT_TRUE(std::isfinite(m.e) && std::isfinite(m.o) && m.u > 0);
+    }
+    EXPECT_LE(worst, 4e-7) << name(rule);
+  }
+}
+
+}  // namespace

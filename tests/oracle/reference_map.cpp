@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/oracle/reference_map.hpp"
+
+#include <cmath>
+
+#include "tests/oracle/set_algebra.hpp"
+
+namespace oracle {
+namespace {
+
+using evigrid::Model;
+using evigrid::Pose2;
+using evigrid::Refusal;
+using evigrid::Sensor;
+
+constexpr double kLeastMass = 1e-12, kLeastUnknown = 1e-30, kTotalConflictBelow = 1e-12;
+
+bool finite(const Pose2& p) { return std::isfinite(p.x_m) && std::isfinite(p.y_m) && std::isfinite(p.yaw_rad); }
+
+/// d < limit for a distance known by its square; both exact.
+bool nearer(double d_squared, double limit) { return limit > 0 && d_squared < limit * limit; }
+
+double square(double t) { return t * t; }
+
+}  // namespace
+
+evigrid::SensorId ReferenceMap::add(const Sensor& sensor) {
+  sensors_.push_back({sensor, Lattice(reach_cells(sensor, params_.cell_m))});
+  return static_cast<evigrid::SensorId>(sensors_.size() - 1);
+}
+
+void ReferenceMap::integrate(const evigrid::Scan& scan) {
+  const auto refuse = [this](Refusal why, std::uint64_t n = 1) { report_.refused[static_cast<std::size_t>(why)] += n; };
+  if (scan.stamp_ns < last_stamp_ns_) ++report_.stamps_backwards;
+  last_stamp_ns_ = scan.stamp_ns;
+  for (const evigrid::Reading& reading : scan.readings) {
+    if (!finite(scan.T_map_robot)) {
+      refuse(Refusal::pose_not_finite, reading.ranges_m.size());
+      continue;
+    }
+    if (reading.sensor >= sensors_.size()) {
+      refuse(Refusal::unknown_sensor);
+      continue;
+    }
+    const Declared& declared = sensors_[reading.sensor];
+    if (reading.ranges_m.size() != static_cast<std::size_t>(declared.sensor.beams)) {
+      refuse(Refusal::wrong_beam_count);
+      continue;
+    }
+    const Pose2 pose = evigrid::compose(scan.T_map_robot, declared.sensor.T_robot_sensor);
+    if (declared.sensor.model == Model::beam) {
+      fan(declared, pose, reading.ranges_m);
+    } else {
+      cone(declared, pose, reading.ranges_m[0]);
+    }
+  }
+}
+
+ReferenceMap::Gate ReferenceMap::gate(const Sensor& sensor, float range_m) {
+  const bool is_fan = sensor.model == Model::beam;
+  const double range = range_m;
+  Refusal why{};
+  if (std::isnan(range)) {
+    why = Refusal::not_a_number;
+  } else if (std::isinf(range) && range < 0) {
+    why = Refusal::too_close;
+  } else if (range < 0) {
+    why = Refusal::negative;
+  } else if (range < sensor.min_range_m) {
+    why = Refusal::too_close;
+  } else if (std::isinf(range) || range >= sensor.no_return_m) {
+    if (is_fan && sensor.clear_no_return) {
+      ++report_.readings_used, ++report_.readings_clipped;
+      return Gate::clip;
+    }
+    why = Refusal::no_return;
+  } else if (range > sensor.max_range_m) {
+    if (is_fan) {
+      ++report_.readings_used, ++report_.readings_clipped;
+      return Gate::clip;
+    }
+    why = Refusal::above_max_range;
+  } else {
+    ++report_.readings_used;
+    return Gate::use;
+  }
+  ++report_.refused[static_cast<std::size_t>(why)];
+  return Gate::refuse;
+}
+
+void ReferenceMap::cone(const Declared& declared, const Pose2& pose, float range_m) {
+  const auto& [sensor, lattice] = declared;
+  if (gate(sensor, range_m) != Gate::use) return;
+  const double cell = params_.cell_m;
+  const Direction left = direction(pose.yaw_rad + sensor.aperture_rad / 2);
+  const Direction right = direction(pose.yaw_rad - sensor.aperture_rad / 2);
+  const double range = lattice.round(range_m / cell);  // cells, as the next three
+  const double nearest = std::max(lattice.round(sensor.min_range_m / cell), lattice.step());
+  double farthest = 0, occupied_from = 0;
+  if (sensor.model == Model::hughes1992) {
+    const double tolerance = lattice.round(sensor.hughes.tolerance_m / cell);
+    farthest = std::min(range + tolerance, lattice.round(sensor.hughes.r_max_m / cell));
+    occupied_from = range - tolerance;
+  } else {
+    farthest = lattice.round(range * (1 + 2 * sensor.li.epsilon_ratio));
+  }
+  sweep(declared, pose, farthest, [&](double dx, double dy, double d_squared, Source& source) {
+    if (d_squared < square(nearest) || d_squared > square(farthest)) return false;
+    const double beside_left = cross(dx, dy, left.x, left.y), beside_right = cross(right.x, right.y, dx, dy);
+    if (beside_left < 0 || beside_right < 0) return false;
+    const EdgeAngles angles{std::atan2(beside_left, dx * left.x + dy * left.y),
+                            std::atan2(beside_right, dx * right.x + dy * right.y)};
+    const double d_m = std::sqrt(d_squared) * cell;
+    if (sensor.model == Model::hughes1992) {
+      const Zone zone = nearer(d_squared, occupied_from) ? Zone::empty : Zone::occupied;
+      source = hughes1992(sensor.hughes, d_m, angles, zone);
+    } else {
+      source = li2014(sensor.li, range * cell, d_m, angles);
+    }
+    return true;
+  });
+}
+
+void ReferenceMap::fan(const Declared& declared, const Pose2& pose, std::span<const float> ranges_m) {
+  const auto& [sensor, lattice] = declared;
+  const double cell = params_.cell_m;
+  const int beams = sensor.beams;
+  const double farthest = lattice.round(sensor.max_range_m / cell);
+  const double nearest = std::max(lattice.round(sensor.min_range_m / cell), lattice.step());
+  const double margin = lattice.round(sensor.beam.empty_margin_m / cell);
+  const double half_width = lattice.round(sensor.beam.occupied_half_width_m / cell);
+  std::vector<Direction> border;
+  for (int k = 0; k <= beams; ++k)
+    border.push_back(direction(pose.yaw_rad + sensor.first_beam_rad + (k - 0.5) * sensor.beam_step_rad));
+  std::vector<Gate> gates;
+  std::vector<double> range;
+  double radius = 0;
+  for (float r : ranges_m) {
+    gates.push_back(gate(sensor, r));
+    range.push_back(gates.back() == Gate::use ? lattice.round(r / cell) : 0);
+    if (gates.back() == Gate::clip) radius = farthest;
+    if (gates.back() == Gate::use) radius = std::max(radius, std::min(range.back() + half_width, farthest));
+  }
+  const auto holds = [&](int i, double dx, double dy) {
+    if (i < 0 || i >= beams) return false;
+    const double after = cross(border[i].x, border[i].y, dx, dy);
+    return (after > 0 || (i == 0 && after == 0)) && cross(dx, dy, border[i + 1].x, border[i + 1].y) >= 0;
+  };
+  const double full_turn = 2 * std::numbers::pi / sensor.beam_step_rad;  // in beams
+  sweep(declared, pose, radius, [&](double dx, double dy, double d_squared, Source& source) {
+    if (d_squared < square(nearest) || d_squared > square(farthest)) return false;
+    // The angle only proposes beams; the crosses decide. Beam 0 goes first: on a full turn its border is also the last.
+    const double bearing = std::atan2(dy, dx) - pose.yaw_rad - sensor.first_beam_rad;
+    double guess = std::fmod(std::round(bearing / sensor.beam_step_rad), full_turn);
+    if (guess < -1) guess += full_turn;
+    const int middle = static_cast<int>(guess);
+    int index = holds(0, dx, dy) ? 0 : -1;
+    for (int i = middle - 2; i <= middle + 2 && index < 0; ++i)
+      if (holds(i, dx, dy)) index = i;
+    if (index < 0 && holds(beams - 1, dx, dy)) index = beams - 1;
+    if (index < 0 || gates[index] == Gate::refuse) return false;
+    Zone zone = Zone::none;
+    if (gates[index] == Gate::clip) {
+      zone = nearer(d_squared, farthest) ? Zone::empty : Zone::none;
+    } else if (nearer(d_squared, range[index] - margin)) {
+      zone = Zone::empty;
+    } else if (!nearer(d_squared, range[index] - half_width) && d_squared <= square(range[index] + half_width)) {
+      zone = Zone::occupied;
+    }
+    if (zone == Zone::none) return false;
+    source = beam(sensor, std::sqrt(d_squared) * cell, zone);
+    return true;
+  });
+}
+
+void ReferenceMap::sweep(const Declared& declared, const Pose2& pose, double radius_cells, const Say& say) {
+  const ApexCoordinate x = apex_coordinate(declared.lattice, pose.x_m, params_.cell_m);
+  const ApexCoordinate y = apex_coordinate(declared.lattice, pose.y_m, params_.cell_m);
+  const auto reach = static_cast<std::int64_t>(std::ceil(radius_cells)) + 1;
+  const double disc = square(radius_cells);
+  for (std::int64_t j = -reach; j <= reach; ++j)
+    for (std::int64_t i = -reach; i <= reach; ++i) {
+      const double dx = static_cast<double>(i) - x.offset, dy = static_cast<double>(j) - y.offset;
+      const double d_squared = dx * dx + dy * dy;
+      Source source;
+      if (d_squared > disc || !say(dx, dy, d_squared, source)) continue;
+      update(cells_[{x.cell + i, y.cell + j}], discount(source, declared.sensor.reliability));
+    }
+}
+
+void ReferenceMap::update(ReferenceCell& cell, const Source& source) {
+  Belief<double, 3> state{}, said{};
+  state[kEmpty] = cell.e, state[kOccupied] = cell.o, state[kUnknown] = cell.u;
+  said[kEmpty] = source.x, said[kOccupied] = source.y, said[kUnknown] = source.v, said[kBoth] = source.z;
+  const auto fused = combine<double, 3>(params_.rule, cell_frame(), state, said, kTotalConflictBelow);
+  cell.e = fused.m[kEmpty] < kLeastMass ? 0 : fused.m[kEmpty];
+  cell.o = fused.m[kOccupied] < kLeastMass ? 0 : fused.m[kOccupied];
+  cell.u = std::max(fused.m[kUnknown], kLeastUnknown);
+  cell.conflict += fused.conflict;
+  ++cell.updates;
+  ++report_.cells_updated;
+  report_.total_conflicts += fused.total_conflict;
+  report_.max_conflict = std::max(report_.max_conflict, fused.conflict);
+}
+
+}  // namespace oracle
