@@ -9,6 +9,20 @@
 #include "evigrid/version.hpp"
 
 namespace evigrid::driver {
+namespace {
+
+/// The parser itself would only say that a command is required.
+void require_known_command(const CLI::App& app, const std::string& first) {
+  if (first.empty() || first.front() == '-') return;
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == first) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw InputError("command '" + first + "' is unknown; known: " + known);
+}
+
+}  // namespace
 
 int run_program(int argc, const char* const* argv) {
   constexpr int kOk = 0, kInternal = 1, kBadInput = 2;
@@ -24,6 +38,7 @@ int run_program(int argc, const char* const* argv) {
     add_combine(app);
     add_model(app);
     add_info(app);
+    require_known_command(app, argc > 1 ? argv[1] : "");
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

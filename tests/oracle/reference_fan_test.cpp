@@ -101,9 +101,11 @@ TEST(ReferenceFan, BordersThroughCellCentres) {
             const int beams = static_cast<int>(180 / step_deg);
             Sensor s = laser(beams, first_deg, step_deg);
             s.first_beam_rad = (first_deg < -89.6 ? -90 + step_deg / 2 : first_deg) * kDegree;
+            s.beam.empty_margin_m = 2 * cell;  // zones and the clipped range end on centres
+            s.beam.occupied_half_width_m = cell;
             const Pose2 pose{(5 + ox) * cell, (-2 + oy) * cell, heading * kDegree};
             std::vector<float> ranges(beams);
-            for (int i = 0; i < beams; ++i) ranges[i] = static_cast<float>((8 + i % 40) * cell);
+            for (int i = 0; i < beams; ++i) ranges[i] = static_cast<float>((i % 5 == 4 ? 70 : 8 + i % 40) * cell);
             SCOPED_TRACE(testing::Message()
                          << first_deg << ' ' << step_deg << ' ' << heading << ' ' << ox << ' ' << oy);
             all.merge(once({.cell_m = cell}, s, pose, ranges));

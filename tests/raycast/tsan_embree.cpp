@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embree and oneTBB come without instrumentation, so ThreadSanitizer cannot see how they order their own allocations
-// and would report them. Only calls that come directly from these two libraries are ignored: what our callbacks do
-// while Embree calls them is still watched. Linked into every test that casts; empty without ThreadSanitizer.
+// Embree and oneTBB come without instrumentation, so ThreadSanitizer cannot see how they order their own work and would
+// report it. Ignored are calls that come directly from these two libraries, and the building of a scene, which no other
+// thread of ours can see yet; queries and their callbacks are still watched. Linked into every test that casts; empty
+// without ThreadSanitizer.
 #if defined(__SANITIZE_THREAD__)
 #define EVIGRID_TSAN 1
 #elif defined(__has_feature)

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad input, as the command line's contract says: exit code 2, a message that names file and field, nothing left
+// behind.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "program.hpp"
+#include "records.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+using Names = std::set<std::string>;
+
+struct BadInput : ::testing::Test {
+  TempDir dir;
+  std::string good = dir.write("good.log", flaser(180, "3.5", 1) + flaser(180, "3.5", 2));
+
+  /// `map` with these arguments fails as it should, and the folder holds what it held before.
+  void expect_refused(std::vector<std::string> arguments, const std::string& message) {
+    const Names before = dir.names();
+    const Ran ran = evigrid(arguments);
+    EXPECT_EQ(ran.code, 2) << ran.err;
+    EXPECT_TRUE(contains(ran.err, message));
+    EXPECT_EQ(ran.out, "");
+    EXPECT_EQ(dir.names(), before);
+  }
+  void expect_map_refused(const std::string& log, const std::string& message, std::vector<std::string> more = {}) {
+    std::vector<std::string> all{"map", log, "-o", dir.at("new/out")};
+    all.insert(all.end(), more.begin(), more.end());
+    expect_refused(all, message);
+  }
+};
+
+TEST_F(BadInput, GoodInputIsNotRefused) {  // or the tests below would pass for another reason
+  const Ran ran = evigrid({"map", good, "-o", dir.at("new/out")});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(dir.names().contains("new/out/map.png"));
+}
+
+TEST_F(BadInput, MissingFile) { expect_map_refused(dir.at("missing.log"), "missing.log: no such file"); }
+TEST_F(BadInput, EmptyFile) {
+  expect_map_refused(dir.write("empty.log", ""), "no usable record in " + dir.at("empty.log"));
+}
+TEST_F(BadInput, TruncatedPlainFile) {
+  expect_map_refused(dir.write("cut.log", slurp(good).substr(0, 400)), "cut.log:1: too short");
+}
+TEST_F(BadInput, TruncatedGzip) {
+  std::string text;
+  for (int i = 0; i < 50; ++i) text += flaser_with(180, i, fmt::format("{}", 1.5 + i * 0.37), i);
+  const std::string bytes = slurp(dir.write_gz("whole.log.gz", text));
+  expect_map_refused(dir.write("cut.log.gz", bytes.substr(0, bytes.size() * 2 / 3)), "cut.log.gz: truncated");
+}
+TEST_F(BadInput, BinaryGarbage) {
+  std::mt19937 random(1);
+  std::string bytes(20000, ' ');
+  for (char& c : bytes) c = static_cast<char>(random());
+  expect_map_refused(dir.write("junk.log", bytes), "junk.log");
+  std::string text_like = bytes;
+  for (char& c : text_like) c = static_cast<char>(33 + static_cast<unsigned char>(c) % 90);
+  expect_map_refused(dir.write("junk2.log", text_like), "junk2.log");
+}
+TEST_F(BadInput, NoRangeOfUse) {
+  expect_map_refused(dir.write("nan.log", flaser(180, "nan", 1)), "no reading could be used");
+}
+TEST_F(BadInput, PosesFarOutOrNotFinite) {
+  expect_map_refused(dir.write("a.log", flaser(180, "3", 1, "nan 0 0") + flaser(180, "3", 2, "1e300 0 0")),
+                     "no reading could be used");
+}
+TEST_F(BadInput, CellSizes) {
+  for (const char* cell : {"0", "-1", "nan", "inf"}) expect_map_refused(good, "map.cell_m", {"--cell", cell});
+  expect_map_refused(good, "--cell", {"--cell", "five"});
+}
+TEST_F(BadInput, UnknownNames) {
+  expect_map_refused(good, "--rule: 'yager' is unknown or not built yet; known: dempster", {"--rule", "yager"});
+  expect_map_refused(good, "model 'magic'", {"--model", "magic"});
+  expect_map_refused(good, "--model: li2014 is for sonar cones", {"--model", "li2014"});
+  expect_map_refused(good, "--kernel: 'mmx'", {"--kernel", "mmx"});
+  expect_map_refused(good, "--executor: 'fibres'", {"--executor", "fibres"});
+  expect_map_refused(good, "--format: 'rosbag'", {"--format", "rosbag"});
+}
+TEST_F(BadInput, NumbersOutOfRange) {
+  expect_map_refused(good, "--threads: -1", {"--threads", "-1"});
+  expect_map_refused(good, "sensor.max_range_m", {"--max-range", "-3"});
+  expect_map_refused(good, "sensor.reliability", {"--reliability", "0"});
+  expect_map_refused(good, "max_range_m", {"--cell", "0.0001"});  // 100 000 cells across
+  expect_map_refused(good, "--max-image-mb", {"--max-image-mb", "0"});
+}
+TEST_F(BadInput, ADensePictureBeyondTheCapIsRefusedByName) {
+  expect_map_refused(dir.write("far.log", flaser(180, "3", 1) + flaser(180, "3", 2, "3000 3000 0")), "masses.npy",
+                     {"--max-image-mb", "100"});
+}
+TEST_F(BadInput, OutputThatCannotBeWritten) {
+  expect_refused({"map", good, "-o", good + "/out"}, "good.log/out: cannot be written");
+  expect_refused({"map", good, "-o", good}, "good.log: cannot be written");
+  expect_map_refused(good, "cannot be written", {"--json", good + "/report.json"});
+}
+TEST_F(BadInput, TheOutputFolderIsCheckedBeforeTheLog) {
+  expect_refused({"map", dir.at("missing.log"), "-o", good + "/out"}, "good.log/out");
+}
+TEST_F(BadInput, AnOldMapSurvivesAFailedRun) {
+  dir.write("old/map.png", "precious");
+  expect_refused({"map", dir.at("missing.log"), "-o", dir.at("old")}, "missing.log");
+  EXPECT_EQ(slurp(dir.at("old/map.png")), "precious");
+}
+TEST_F(BadInput, Usage) {
+  expect_refused({}, "subcommand");
+  expect_refused({"fly"}, "command 'fly' is unknown; known: map, run");
+  expect_refused({"map", good}, "--out");
+  expect_refused({"map", good, "-o", dir.at("x"), "--speed", "9"}, "--speed");
+}
+TEST_F(BadInput, SceneFiles) {
+  expect_refused({"run", dir.at("none.toml"), "-o", dir.at("out")}, "none.toml");
+  expect_refused({"run", dir.write("a.toml", "colour = 'red'\n"), "-o", dir.at("out")}, "a.toml:1");
+  expect_refused({"run", dir.write("b.toml", "[map\n"), "-o", dir.at("out")}, "b.toml:1");
+  expect_refused({"run", dir.write("c.toml", ""), "-o", dir.at("out")}, "c.toml");
+  expect_refused({"cast", dir.at("none.toml")}, "none.toml");
+  expect_refused({"run", "-o", dir.at("out"), "--model", "beam"}, "--model: beam is for laser fans");
+  expect_refused({"run", "-o", dir.at("out"), "--clear-no-return"}, "--clear-no-return");
+}
+TEST_F(BadInput, Combine) {
+  const std::string rows = dir.write("rows.csv", "e1,o1,e2,o2\n0.5,0.6,0,0\n");
+  expect_refused({"combine", "--rule", "pcr5", "--in", rows}, "rows.csv:2:o1");
+  expect_refused({"combine", "--rule", "pcr5", "--in", dir.at("none.csv")}, "none.csv");
+  expect_refused({"combine", "--rule", "pcr5", "--in", dir.at("")}, "is a folder");
+  expect_refused({"combine", "--rule", "pcr5"}, "(standard input): is empty");
+  expect_refused({"combine", "--rule", "magic", "--in", rows}, "known: dempster");
+  expect_refused({"combine", "--rule", "pcr5", "--in", rows, "-o", rows + "/x"}, "cannot be written");
+}
+TEST_F(BadInput, Model) {
+  expect_refused({"model", "magic", "--reading", "1", "--at", "1,0"}, "known: hughes1992");
+  expect_refused({"model", "li2014", "--reading", "1", "--at", "one"}, "--at: 'one'");
+  expect_refused({"model", "li2014", "--reading", "1"}, "--at");
+  expect_refused({"model", "li2014", "--reading", "77", "--at", "1,0"}, "--reading: 77");
+  expect_refused({"model", "li2014", "--reading", "nan", "--at", "1,0"}, "--reading: nan");
+  expect_refused({"model", "li2014", "--reading", "1", "--at", "1,0", "--aperture", "0"}, "aperture");
+}
+
+}  // namespace
+}  // namespace evigrid::driver

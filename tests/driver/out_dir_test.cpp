@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nothing half-written stays behind, whatever fails.
+#include <gtest/gtest.h>
+
+#include "error.hpp"
+#include "out/out_dir.hpp"
+#include "temp_dir.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+using Names = std::set<std::string>;
+
+TEST(OutDir, CommitPutsEverythingInPlace) {
+  const TempDir dir;
+  OutDir out(dir.at("a/b"));
+  out.write("one", "1");
+  out.write_outside(dir.at("two"), "22");
+  EXPECT_FALSE(dir.names().contains("a/b/one"));  // only under its temporary name so far
+  out.commit();
+  EXPECT_EQ(dir.names(), (Names{"a", "a/b", "a/b/one", "two"}));
+  EXPECT_EQ(slurp(dir.at("a/b/one")), "1");
+  EXPECT_EQ(slurp(dir.at("two")), "22");
+}
+
+TEST(OutDir, WithoutCommitNothingStays) {
+  const TempDir dir;
+  {
+    OutDir out(dir.at("a/b/"));
+    out.write("one", "1");
+  }
+  EXPECT_EQ(dir.names(), Names{});
+}
+
+TEST(OutDir, AFolderThatWasThereAndItsOldFilesStay) {
+  const TempDir dir;
+  dir.write("a/one", "old");
+  {
+    OutDir out(dir.at("a"));
+    out.write("one", "new");
+  }
+  EXPECT_EQ(dir.names(), (Names{"a", "a/one"}));
+  EXPECT_EQ(slurp(dir.at("a/one")), "old");
+}
+
+TEST(OutDir, AFolderThatCannotBeMadeIsNamedAtOnce) {
+  const TempDir dir;
+  dir.write("file", "");
+  for (const std::string& bad : {dir.at("file/out"), dir.at("file"), dir.at("x/") + std::string(300, 'n')}) {
+    try {
+      OutDir out(bad);
+      FAIL() << bad;
+    } catch (const InputError& error) {
+      EXPECT_TRUE(contains(error.what(), "cannot be written"));
+    }
+  }
+  EXPECT_THROW(OutDir(""), InputError);
+  EXPECT_EQ(dir.names(), Names{"file"});
+}
+
+TEST(OutDir, AFolderInAFilesPlaceUndoesTheCommit) {
+  const TempDir dir;
+  std::filesystem::create_directory(dir.at("two"));
+  {
+    OutDir out(dir.at("a"));
+    out.write("one", "1");
+    EXPECT_THROW(out.write_outside(dir.at("two"), "2"), InputError);
+  }
+  EXPECT_EQ(dir.names(), Names{"two"});
+}
+
+TEST(OutDir, AFailingCommitTakesBackWhatItMoved) {
+  const TempDir dir;
+  {
+    OutDir out(dir.at("a"));
+    out.write("one", "1");
+    out.write("two", "2");
+    dir.write("a/two/inside", "x");  // now a folder stands there: the second rename fails
+    EXPECT_THROW(out.commit(), InputError);
+  }
+  EXPECT_EQ(dir.names(), (Names{"a", "a/two", "a/two/inside"}));
+}
+
+TEST(OutDir, ASingleFile) {
+  const TempDir dir;
+  require_writable(dir.at("f"));
+  EXPECT_EQ(dir.names(), Names{});
+  write_file(dir.at("f"), "abc");
+  EXPECT_EQ(slurp(dir.at("f")), "abc");
+  EXPECT_THROW(require_writable(dir.at("no/f")), InputError);
+  EXPECT_THROW(write_file(dir.at("no/f"), "x"), InputError);
+}
+
+}  // namespace
+}  // namespace evigrid::driver
