@@ -55,10 +55,11 @@ struct Exact {
   static constexpr float kMassFloor = 0, kUnknownFloor = 0, kTotal = 0;
 };
 
-/// Divisors of zero are replaced by this; their dividends are zero then.
+/// A divisor this small has a dividend below its square: the quotient is taken as zero by dividing by 1 instead.
+inline constexpr float kTiny = 1e-15f;
 template <class V>
 EVIGRID_FN V nonzero(const V& d) {
-  return select(d > V(0.0f), d, V(1.0f));
+  return select(d > V(kTiny), d, V(1.0f));
 }
 
 template <class State, class V>
@@ -71,6 +72,12 @@ EVIGRID_FN Cell<V> settle(const Cell<V>& c) {
   }
 }
 
+/// k of the two normalised operands, from k·(source's sum): a plain source is normalised already.
+template <class V>
+EVIGRID_FN V conflict_of(const Source<V>&, const V& k, const V& inverse_sum) { return k * inverse_sum; }
+template <class V>
+EVIGRID_FN V conflict_of(const PlainSource<V>&, const V& k, const V&) { return k; }
+
 /// The conjunctive part; the order of additions makes it commutative and mirror-symmetric bit for bit.
 template <class V>
 struct Conjunctive {
@@ -81,16 +88,17 @@ EVIGRID_FN Conjunctive<V> conjunctive(const Cell<V>& c, const S& m) {
   return {c.a * m.x + (c.a * m.v + c.u * m.x), c.b * m.y + (c.b * m.v + c.u * m.y), c.u * m.v, c.a * m.y + c.b * m.x};
 }
 
-/// Shafer's discount: every mass times `reliability`, the rest becomes unknown.
+/// Shafer's discount: every mass times `reliability`, the rest becomes unknown. `doubt` is 1 − reliability, rounded from
+/// double: 1 − 0.9f would be off by 2e-7 of itself, in every update the same way.
 template <class V>
-EVIGRID_FN Source<V> discount(const Source<V>& m, const V& reliability) {
+EVIGRID_FN Source<V> discount(const Source<V>& m, const V& reliability, const V& doubt) {
   const V x = m.x * reliability, y = m.y * reliability, z = m.z * reliability;
-  return {x, y, mul_add(m.v, reliability, m.s * (V(1.0f) - reliability)), z, m.s};
+  return {x, y, mul_add(m.v, reliability, m.s * doubt), z, m.s};
 }
 
 template <class V>
-EVIGRID_FN PlainSource<V> discount(const PlainSource<V>& m, const V& reliability) {
-  return {m.x * reliability, m.y * reliability, mul_add(m.v, reliability, V(1.0f) - reliability)};
+EVIGRID_FN PlainSource<V> discount(const PlainSource<V>& m, const V& reliability, const V& doubt) {
+  return {m.x * reliability, m.y * reliability, mul_add(m.v, reliability, doubt)};
 }
 
 /// The PCR family gives a source's paradoxical mass back to x and y in proportion, halves if both are 0.

@@ -14,13 +14,17 @@ struct ModelLi2014 {
     const V d = root(p.d2);
     const V margin = (p.nl * p.nr) / nonzero(p.d2);  // sin²α − sin²θ
     const V lambda = margin * cubic(k.lambda, margin);
-    const V h = p.d2 * V(k.empty_rate);  // log2 of what everything is divided by
+    // log2 of what everything is divided by; rates are two floats: their rounding would add up over like readings
+    const V h = mul_add(p.d2, V(k.empty_rate), p.d2 * V(k.empty_rate_rest));
     V dr = d - V(k.range);
     dr = mul_add(neg_mul_add(dr, dr + V(k.range_twice), p.edge), V(k.range_twice_inverse), dr);
     // Equation (8) empty, (9) occupied, (10) paradox, (11) unknown
     const V x = neg_mul_add(V(0.5f), lambda, one);
-    const V y = lambda * exp2_poly(max_of(neg_mul_add(dr * V(k.occupied_rate), dr, h), V(-40.0f)));
-    const V t = max_of(min_of(mul_add(d, V(k.peak_inverse), V(-1.1f)), V(0.516f)), V(-0.463f));
+    const V dr2 = dr * dr;
+    const V yo = neg_mul_add(dr2, V(k.occupied_rate), neg_mul_add(dr2, V(k.occupied_rate_rest), h));
+    const V far_tail = lambda * exp2_poly(max_of(yo, V(-80.0f)));
+    const V y = select(far_tail >= V(1e-20f), far_tail, zero);  // so that no product with a cell becomes denormal
+    const V t = max_of(min_of(mul_add(dr, V(k.peak_inverse), V(k.peak_offset)), V(0.516f)), V(-0.463f));  // d/e^β − 1.1
     const V l = scaled_log(t) * V(k.paradox_scale);
     const V z = exp2_poly(neg_mul_add(l, l, h));
     const V into = max_of(mul_add(dr, V(k.shell_slope), V(k.shell_offset)), zero);

@@ -18,18 +18,19 @@ EVIGRID_FN V exp2_poly(const V& y) {
   return scale_by_magic(p, n);
 }
 
-/// √(80·log2 e)·ln r for t = r − 1.1 within [−0.463, 0.516]: the exponent of li2014's paradoxical mass at ρC = 80. Beyond
-/// that range the mass is below 5e-7 and the argument is clamped by the caller.
+/// √(80·log2 e)·ln r for t = r − 1.1 within [−0.463, 0.516]: the exponent of li2014's paradoxical mass at ρC = 80. Fitted
+/// with the weight that the mass 2^(−l²) gives to an error of l: the mass is right to 1.7e-7. Beyond that range the mass is
+/// below 5e-7 and the argument is clamped by the caller.
 template <class V>
 EVIGRID_FN V scaled_log(const V& t) {
-  V p = mul_add(V(-0.796964049f), t, V(1.08453441f));
-  p = mul_add(p, t, V(-0.995082259f));
-  p = mul_add(p, t, V(1.28449726f));
-  p = mul_add(p, t, V(-1.83392835f));
-  p = mul_add(p, t, V(2.69364047f));
-  p = mul_add(p, t, V(-4.43947363f));
-  p = mul_add(p, t, V(9.76644707f));
-  return mul_add(p, t, V(1.02393842f));
+  V p = mul_add(V(-0.8522990942f), t, V(1.009788990f));
+  p = mul_add(p, t, V(-0.9618414640f));
+  p = mul_add(p, t, V(1.312021852f));
+  p = mul_add(p, t, V(-1.838957906f));
+  p = mul_add(p, t, V(2.690870762f));
+  p = mul_add(p, t, V(-4.439251900f));
+  p = mul_add(p, t, V(9.766512871f));
+  return mul_add(p, t, V(1.023932934f));
 }
 
 /// c[0] + c[1]·x + c[2]·x² + c[3]·x³: the fits made once per sensor.

@@ -10,17 +10,22 @@ struct Dempster {
   template <class State, class V, class S>
   static EVIGRID_FN auto combine(const Cell<V>& c, const S& source) {
     const S m = drop_paradox(source);
-    const Conjunctive<V> q = conjunctive(c, m);
-    const V sum = (q.e + q.o) + q.t, zero(0.0f), one(1.0f);
+    Conjunctive<V> q = conjunctive(c, m);
+    const V k = q.k, zero(0.0f), one(1.0f);
+    V sum = (q.e + q.o) + q.t;
     const auto total = sum <= V(State::kTotal) * scale(m);
-    const V all = sum + q.k;  // = the source's sum up to rounding; one division serves the masses (/ sum) and k (/ all)
+    V all = sum + k;  // the source's sum up to rounding
+    if constexpr (!State::kFloors) {  // a sum as small as a denormal is still divided exactly
+      const V up = select(sum < V(kTiny), V(1.2676506e30f), one);  // 2^100
+      q.e = q.e * up, q.o = q.o * up, q.t = q.t * up, sum = sum * up;
+    }
+    // One division serves the masses (/ sum) and k (/ all).
     const V r = one / select(total, one, sum * all);
     const V w = r * all;
     const Cell<V> next = settle<State>(Cell<V>{q.e * w, q.o * w, q.t * w});
-    using M = decltype(total);
-    return CombinedOrTotal<V, std::remove_const_t<M>>{
+    return CombinedOrTotal<V, std::remove_const_t<decltype(total)>>{
         {select(total, zero, next.a), select(total, zero, next.b), select(total, one, next.u)},
-        select(total, one, (q.k * sum) * r),
+        select(total, one, conflict_of(m, k, sum * r)),
         total};
   }
 };

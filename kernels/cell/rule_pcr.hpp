@@ -9,16 +9,17 @@ EVIGRID_CELL_BEGIN
 /// PCR2: k is shared out in proportion to the columns a+x and b+y. `conflict` is k, for GERM-PCR2 z + k.
 template <class State, class V, class S>
 EVIGRID_FN Combined<V> share_by_columns(const Cell<V>& c, const S& m, const Conjunctive<V>& q, const V& conflict) {
-  const V zero(0.0f);
   const V as = c.a * scale(m) + m.x, bs = c.b * scale(m) + m.y;  // columns
   const V d = as + bs;
-  const auto none = d <= zero;  // nothing to share by: the conflict goes to unknown
-  const V dd = select(none, V(1.0f), d);
+  const auto none = d <= V(kTiny);  // nothing to share by: the conflict goes to unknown
+  // Without conflict nothing is shared and nothing needs the common denominator: a vacuous source then leaves a
+  // normalised cell as it is, bit for bit.
+  const V dd = select(both(d > V(kTiny), conflict > V(0.0f)), d, V(1.0f));
   const V e = q.e * dd + conflict * as, o = q.o * dd + conflict * bs;
   const V t = select(none, q.t + conflict, q.t);
   const V r = V(1.0f) / ((e + o) + t * dd);
   const V w = dd * r;
-  return {settle<State>(Cell<V>{e * r, o * r, t * w}), conflict * w};
+  return {settle<State>(Cell<V>{e * r, o * r, t * w}), conflict_of(m, conflict, w)};
 }
 
 struct Pcr2 {
@@ -56,11 +57,11 @@ struct Pcr5 {
     const V d1 = nonzero(as + m.y), d2 = nonzero(bs + m.x);
     const V ay = c.a * m.y, bx = c.b * m.x;
     const V p = select(ay > cut, ay, zero) * d2, w = select(bx > cut, bx, zero) * d1;  // p/(d1·d2) = a·y/(a + y)
-    const V dd = d1 * d2;
+    const V dd = select(q.k > zero, d1 * d2, V(1.0f));  // without conflict no common denominator: see above
     const V e = q.e * dd + (p * as + w * m.x), o = q.o * dd + (p * m.y + w * bs);
     const V r = V(1.0f) / ((e + o) + q.t * dd);
     const V n = dd * r;
-    return {settle<State>(Cell<V>{e * r, o * r, q.t * n}), q.k * n};
+    return {settle<State>(Cell<V>{e * r, o * r, q.t * n}), conflict_of(m, q.k, n)};
   }
 };
 

@@ -94,6 +94,7 @@ ConeReading compile_cone(const ConeType& t, const SensorPose& pose, double range
   const Direction left = direction(pose.yaw_rad + s.aperture_rad / 2), right = direction(pose.yaw_rad - s.aperture_rad / 2);
   q.lx = left.x, q.ly = left.y, q.rx = right.x, q.ry = right.y;
   q.reliability = static_cast<float>(s.reliability);
+  q.doubt = static_cast<float>(1 - s.reliability);
   const double r = quantise(range_m / c, t.lattice), metres = r * c;
   double outer, edge;
   if (s.model == 0) {
@@ -111,9 +112,14 @@ ConeReading compile_cone(const ConeType& t, const SensorPose& pose, double range
     std::copy(t.shell, t.shell + 4, k.shell);
     const double root = std::sqrt(metres);
     const double peak = s.rho_e * root * metres / (s.rho_e * root + s.rho_o);  // e^β
-    k.empty_rate = static_cast<float>(c * c * kLog2E / (2 * metres * s.rho_e * metres * s.rho_e));
-    k.occupied_rate = static_cast<float>(c * c * kLog2E / (2 * metres * s.rho_o * s.rho_o));
+    const double empty_rate = c * c * kLog2E / (2 * metres * s.rho_e * metres * s.rho_e);
+    const double occupied_rate = c * c * kLog2E / (2 * metres * s.rho_o * s.rho_o);
+    k.empty_rate = static_cast<float>(empty_rate);
+    k.empty_rate_rest = static_cast<float>(empty_rate - k.empty_rate);
+    k.occupied_rate = static_cast<float>(occupied_rate);
+    k.occupied_rate_rest = static_cast<float>(occupied_rate - k.occupied_rate);
     k.peak_inverse = static_cast<float>(c / peak);
+    k.peak_offset = static_cast<float>(metres / peak - 1.1);
     k.paradox_scale = static_cast<float>(std::sqrt(s.rho_c / 80));
     k.range = static_cast<float>(r);
     k.range_twice = static_cast<float>(2 * r);

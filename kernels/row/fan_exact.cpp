@@ -17,10 +17,10 @@ int fan_class_exact(const FanReading& q, float dx, float dy, int candidate) {
   const double near2 = static_cast<double>(q.near) * q.near, far2 = static_cast<double>(q.far) * q.far;
   if (d2 < near2 || d2 > far2) return 0;
   int beam = -1;
-  for (int step = -1; step <= 1 && beam < 0; ++step) {
+  for (int step = -1; step <= 1; ++step) {  // on a border two beams hold it: the lower index wins, also across the seam
     int i = candidate + step;
     if (q.full_circle) i = (i % q.beams + q.beams) % q.beams;
-    if (i >= 0 && i < q.beams && in_beam(q, x, y, i)) beam = i;
+    if (i >= 0 && i < q.beams && (beam < 0 || i < beam) && in_beam(q, x, y, i)) beam = i;
   }
   if (beam < 0) return 0;
   const double r = q.range[beam], empty_end = r - q.empty_margin, from = r - q.half_width, to = r + q.half_width;

@@ -109,7 +109,7 @@ void fuse_cone_planes(const TileArgs& a, const ConeReading& q_in, Stats& stats) 
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
       if (!Lanes::any(at.inside)) continue;
-      const auto source = discount(Model::measure(q, at.polar), Lanes::V(q.reliability));
+      const auto source = discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt));
       io.template fuse<Rule>(part, source, at.inside, stats, max_k);
     }
   }
@@ -160,7 +160,7 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
     std::uint64_t bits = 0;
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
-      const Source<Lanes::V> s = widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability)));
+      const Source<Lanes::V> s = widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt)));
       alignas(64) float masses[5][Lanes::kLanes];
       const Lanes::V* const from[5] = {&s.x, &s.y, &s.v, &s.z, &s.s};
       float* const to[5] = {out.x, out.y, out.v, out.z, out.s};

@@ -14,7 +14,7 @@ inline constexpr int kOuter = 0, kInner = 1, kEdge = 2;
 
 struct LiConstants {
   float lambda[4], shell[4];
-  float empty_rate, occupied_rate, peak_inverse, paradox_scale;
+  float empty_rate, empty_rate_rest, occupied_rate, occupied_rate_rest, peak_inverse, peak_offset, paradox_scale;
   float range, range_twice, range_twice_inverse, shell_slope, shell_offset;
 };
 struct HughesConstants {
@@ -28,7 +28,7 @@ struct ConeReading {
   float lx = 0, ly = 0, rx = 0, ry = 0;  // directions of the left and right edge
   Ring ring[3];                 // farthest, nearest, and the model's own edge
   float outer = 0;              // farthest distance
-  float reliability = 1;
+  float reliability = 1, doubt = 0;         // doubt = 1 − reliability
   LiConstants li{};
   HughesConstants hughes{};
 };

@@ -98,6 +98,7 @@ TEST_F(BadInput, OutputThatCannotBeWritten) {
 }
 TEST_F(BadInput, TheOutputFolderIsCheckedBeforeTheLog) {
   expect_refused({"map", dir.at("missing.log"), "-o", good + "/out"}, "good.log/out");
+  expect_map_refused(dir.at("missing.log"), "good.log/report.json", {"--json", good + "/report.json"});
 }
 TEST_F(BadInput, AnOldMapSurvivesAFailedRun) {
   dir.write("old/map.png", "precious");

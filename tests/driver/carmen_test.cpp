@@ -104,9 +104,9 @@ TEST(Carmen, KeywordsOfANonsenseFileStayBounded) {
 TEST(Carmen, MalformedRecordsAreCountedAndTheRestUsed) {
   const std::string good = flaser(180, "3", 1);
   std::string wrong_count = good, too_short = good.substr(0, 200) + "\n", no_number = flaser_with(180, 9, "3.x", 2);
-  wrong_count.replace(wrong_count.find("180"), 3, "179");
+  wrong_count[wrong_count.find("180") + 1] = '7';
   std::string one_short = good;
-  one_short.replace(one_short.find("180"), 3, "181");
+  one_short[one_short.find("180") + 2] = '1';
   const Log log = read_text(good + wrong_count + too_short + no_number + one_short +
                             "FLASER\nFLASER -3 1\nFLASER 1e300 1\n" + flaser(4, "3", 1) + good);
   EXPECT_EQ(log.scans.size(), 2u);
@@ -151,7 +151,7 @@ TEST(Carmen, TimeBackwardsKeepsTheLineOrder) {
 
 TEST(Carmen, LineEndsOfWindowsAndAMissingLastOne) {
   std::string text = flaser(180, "3", 1) + flaser(180, "3", 2);
-  text.insert(text.find('\n'), "\r");
+  text.insert(text.find('\n'), 1, '\r');
   text.pop_back();
   EXPECT_EQ(read_text(text).scans.size(), 2u);
 }

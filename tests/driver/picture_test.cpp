@@ -49,6 +49,16 @@ TEST(Picture, EachCellHasItsColourAndThePathIsThere) {
   EXPECT_EQ(c.get(left + 2 * cell, top + 180), (Rgb{0, 114, 178}));  // y = 0.02 m: near the lower edge
 }
 
+TEST(Picture, TheLargestYIsOnTop) {
+  Layers l;
+  l.rect = {0, 0, 1, 2};
+  l.cell_m = 0.1;
+  l.planes = {1, 0, /**/ 0, 1, /**/ 0, 0, /**/ 0, 0};  // below empty, above occupied
+  const Canvas c = draw_map(l, {}, {"t", "s"});
+  EXPECT_EQ(c.get(c.width() / 2, 52 + 200), cell_colour(0, 1, 0, 0));
+  EXPECT_EQ(c.get(c.width() / 2, 52 + 700), cell_colour(1, 0, 0, 0));
+}
+
 TEST(Picture, AbsurdPosesDoNoHarm) {
   const double inf = std::numeric_limits<double>::infinity();
   const Canvas c = draw_map(one_of_each(), {{1e300, -1e300, 0}, {inf, 0, 0}, {NAN, 1, 0}}, {"t", "s"});

@@ -11,14 +11,14 @@ namespace evigrid::driver {
 inline std::string flaser(int n, const std::string& range, double t_s, const std::string& pose = "1 2 0.5",
                           const std::string& keyword = "FLASER") {
   std::string out = fmt::format("{} {}", keyword, n);
-  for (int i = 0; i < n; ++i) out += " " + range;
+  for (int i = 0; i < n; ++i) out.append(" ").append(range);
   return out + fmt::format(" {} 0 0 0 {} host {}\n", pose, t_s, t_s);
 }
 
 /// The same with one beam of its own value.
 inline std::string flaser_with(int n, int beam, const std::string& odd, double t_s) {
   std::string out = fmt::format("FLASER {}", n);
-  for (int i = 0; i < n; ++i) out += " " + (i == beam ? odd : std::string("3.5"));
+  for (int i = 0; i < n; ++i) out.append(" ").append(i == beam ? odd : "3.5");
   return out + fmt::format(" 0 0 0 0 0 0 {} host {}\n", t_s, t_s);
 }
 

@@ -147,6 +147,22 @@ TEST_P(ReferenceCone, NoFinitePoseRefusesEveryRange) {
 INSTANTIATE_TEST_SUITE_P(Models, ReferenceCone, testing::Values(Model::hughes1992, Model::li2014),
                          [](const auto& model) { return std::string(name(model.param)); });
 
+// A certain cell against certain evidence: Dempster answers with ignorance and counts it, the others share.
+TEST(ReferenceCell, TotalConflictIsAnsweredAndCountedAlike) {
+  for (Rule rule : evigrid::all_rules()) {
+    SCOPED_TRACE(std::string(name(rule)));
+    Sensor s = sonar(Model::li2014, 15);
+    s.reliability = 1;
+    s.li.rho_e = 0.3;
+    Both both({.cell_m = 0.1, .rule = rule});
+    const auto id = both.add(s);
+    for (float range_m : {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, 5.0F}) both.integrate({0.013, 0.027, 0.4}, id, {&range_m, 1});
+    both.expect_equal_reports();
+    EXPECT_EQ(both.report().total_conflicts > 0, rule == Rule::dempster);
+    expect_within_bounds(both.difference());
+  }
+}
+
 // Only the division by the own sum and the floors of the state keep a cell normalised under an endless run.
 TEST(ReferenceCell, SumsStayNearOneOverHundredThousandReadings) {
   for (Rule rule : evigrid::all_rules()) {

@@ -42,7 +42,7 @@ inline constexpr ParamRow<Sensor> kHughesRows[] = {
 // The fitted parts of the kernel hold their error inside these ranges.
 inline constexpr ParamRow<Sensor> kLiRows[] = {
     {"sensor.min_range_m", "m (li2014 needs R > 0)", 1e-3, 1e4, [](const Sensor& s) { return s.min_range_m; }, "Li et al. 2014"},
-    {"sensor.li.rho_e", "", 0.25, 1, [](const Sensor& s) { return s.li.rho_e; }, "Li et al. 2014, eq. 8"},
+    {"sensor.li.rho_e", "", 0.3, 1, [](const Sensor& s) { return s.li.rho_e; }, "Li et al. 2014, eq. 8"},
     {"sensor.li.rho_o", "", 0.02, 1, [](const Sensor& s) { return s.li.rho_o; }, "Li et al. 2014, eq. 9"},
     {"sensor.li.rho_c", "", 80, 320, [](const Sensor& s) { return s.li.rho_c; }, "Li et al. 2014, eq. 10"},
     {"sensor.li.rho_i", "", 1, 10, [](const Sensor& s) { return s.li.rho_i; }, "Li et al. 2014, eq. 11"},
