@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dense combination in place (A ⊕= B, 36 bytes moved a cell) beside a memory-only loop of the same pattern in the same
 // binary and run: three planes read and written, three read. Compare cells/s within one run only.
-// Usage: bench_dense --benchmark_enable_random_interleaving=true --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
+// Usage: bench_dense --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
+// --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -38,8 +39,9 @@ Operands& operands(std::size_t n) {  // kept between benchmarks: first touch is 
 constexpr std::size_t kBlock = 1 << 16;
 
 /// Compiled for the widest vectors of the processor, as the kernels are: the yardstick must not be the weaker side.
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) void subtract(
-    float* __restrict a, const float* __restrict b, std::size_t n) {
+__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) void subtract(float* __restrict a,
+                                                                                            const float* __restrict b,
+                                                                                            std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) a[i] = b[i] - a[i];
 }
 
@@ -91,7 +93,8 @@ void combine_in_place(benchmark::State& state, Rule rule) {
   const auto executor = make_tbb_executor(static_cast<int>(state.range(1)));
   const Planes<float> a{x.a.e.data(), x.a.o.data(), x.a.u.data()};
   for (auto _ : state) {
-    combine(rule, {a.e, a.o, a.u}, {x.b.e.data(), x.b.o.data(), x.b.u.data()}, a, nullptr, n, Kernel::automatic, executor.get());
+    combine(rule, {a.e, a.o, a.u}, {x.b.e.data(), x.b.o.data(), x.b.u.data()}, a, nullptr, n, Kernel::automatic,
+            executor.get());
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));

@@ -29,14 +29,16 @@ void ring(benchmark::State& state, Model model, Rule rule, Kernel kernel) {
   std::uint64_t cells = 0;
   int step = 0;
   for (auto _ : state) {
-    for (int i = 0; i < 24; ++i) ranges[static_cast<std::size_t>(i)] = 1 + 0.1f * static_cast<float>((i * 37 + step * 11) % 35);
-    cells += map.integrate(Scan{step, {5 + 0.01 * (step % 500), 5 + 0.007 * (step % 300), 0.1 * step}, readings}).cells_updated;
+    for (int i = 0; i < 24; ++i)
+      ranges[static_cast<std::size_t>(i)] = 1 + 0.1f * static_cast<float>((i * 37 + step * 11) % 35);
+    cells += map.integrate(Scan{step, {5 + 0.01 * (step % 500), 5 + 0.007 * (step % 300), 0.1 * step}, readings})
+                 .cells_updated;
     ++step;
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(cells));
   state.SetLabel("30 degree cones, 1 thread");
 }
-#define EVIGRID_RING(model, rule)                                                        \
+#define EVIGRID_RING(model, rule)                                                                     \
   BENCHMARK_CAPTURE(ring, model##_##rule##_scalar, Model::model, Rule::rule, Kernel::scalar)->Arg(1); \
   BENCHMARK_CAPTURE(ring, model##_##rule##_avx2, Model::model, Rule::rule, Kernel::avx2)->Arg(1);     \
   BENCHMARK_CAPTURE(ring, model##_##rule##_avx512, Model::model, Rule::rule, Kernel::avx512)->Arg(0)->Arg(1)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gate, footprints, binning; then every tile fuses its readings in their order, tiles in parallel (owner computes). The
-// order of combination is part of the result, so there are no atomics and no reductions on cells, and the map is the same
-// bits for any executor and any number of threads.
+// order of combination is part of the result, so there are no atomics and no reductions on cells, and the map is the
+// same bits for any executor and any number of threads.
 #include "integrate.hpp"
 
 #include "scan/bin.hpp"
@@ -81,7 +81,8 @@ Report integrate(const Pipeline& p, std::span<const Scan> scans) {
     r.total_conflicts = stats[i].total_conflicts;
     r.max_conflict = stats[i].max_conflict;
     const TileIndex at = work[i].tile->index;
-    if (stats[i].cells > 0) r.touched = {at.x * kernels::kTileSide, at.y * kernels::kTileSide, kernels::kTileSide, kernels::kTileSide};
+    if (stats[i].cells > 0)
+      r.touched = {at.x * kernels::kTileSide, at.y * kernels::kTileSide, kernels::kTileSide, kernels::kTileSide};
     report += r;
   }
   return report;

@@ -23,9 +23,11 @@ struct Map::Impl {
   std::int64_t last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
-      : params(p), table(kernels::find_table(name(p.kernel))),
+      : params(p),
+        table(kernels::find_table(name(p.kernel))),
         executor(e ? std::move(e) : std::shared_ptr<Executor>(make_tbb_executor())),
-        store(p.keep_conflict, p.memory_cap_bytes), tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
+        store(p.keep_conflict, p.memory_cap_bytes),
+        tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
 };
 
 Map::Map(const MapParams& params, std::shared_ptr<Executor> executor) {
@@ -51,7 +53,8 @@ SensorId Map::add(const Sensor& sensor) {
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
 Report Map::integrate(std::span<const Scan> scans) {
   Impl& m = *impl_;
-  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, *m.executor, m.tiles_per_worker, m.last_stamp_ns}, scans);
+  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, *m.executor, m.tiles_per_worker, m.last_stamp_ns},
+                            scans);
 }
 
 Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }

@@ -15,20 +15,26 @@ struct Named {
   E value;
   std::string_view name;
 };
-constexpr auto kRuleNames = std::to_array<Named<Rule>>({{Rule::dempster, "dempster"}, {Rule::pcr2, "pcr2"}, {Rule::pcr5, "pcr5"},
-                                {Rule::germ_pcr2, "germ_pcr2"}});
-constexpr auto kModelNames = std::to_array<Named<Model>>({{Model::hughes1992, "hughes1992"}, {Model::li2014, "li2014"},
-                                 {Model::beam, "beam"}});
-constexpr auto kKernelNames = std::to_array<Named<Kernel>>({{Kernel::automatic, "auto"}, {Kernel::scalar, "scalar"},
-                                  {Kernel::avx2, "avx2"}, {Kernel::avx512, "avx512"}});
-constexpr auto kLayerNames = std::to_array<Named<Layer>>({{Layer::betp, "betp"}, {Layer::bel, "bel"}, {Layer::pl, "pl"},
-                                 {Layer::empty, "empty"}, {Layer::unknown, "unknown"}, {Layer::conflict, "conflict"}});
+constexpr auto kRuleNames = std::to_array<Named<Rule>>(
+    {{Rule::dempster, "dempster"}, {Rule::pcr2, "pcr2"}, {Rule::pcr5, "pcr5"}, {Rule::germ_pcr2, "germ_pcr2"}});
+constexpr auto kModelNames =
+    std::to_array<Named<Model>>({{Model::hughes1992, "hughes1992"}, {Model::li2014, "li2014"}, {Model::beam, "beam"}});
+constexpr auto kKernelNames = std::to_array<Named<Kernel>>(
+    {{Kernel::automatic, "auto"}, {Kernel::scalar, "scalar"}, {Kernel::avx2, "avx2"}, {Kernel::avx512, "avx512"}});
+constexpr auto kLayerNames = std::to_array<Named<Layer>>({{Layer::betp, "betp"},
+                                                          {Layer::bel, "bel"},
+                                                          {Layer::pl, "pl"},
+                                                          {Layer::empty, "empty"},
+                                                          {Layer::unknown, "unknown"},
+                                                          {Layer::conflict, "conflict"}});
 constexpr auto kRefusalNames = std::to_array<Named<Refusal>>({{Refusal::not_a_number, "not_a_number"},
-                                   {Refusal::too_close, "too_close"}, {Refusal::negative, "negative"},
-                                   {Refusal::no_return, "no_return"}, {Refusal::above_max_range, "above_max_range"},
-                                   {Refusal::wrong_beam_count, "wrong_beam_count"},
-                                   {Refusal::unknown_sensor, "unknown_sensor"},
-                                   {Refusal::pose_not_finite, "pose_not_finite"}});
+                                                              {Refusal::too_close, "too_close"},
+                                                              {Refusal::negative, "negative"},
+                                                              {Refusal::no_return, "no_return"},
+                                                              {Refusal::above_max_range, "above_max_range"},
+                                                              {Refusal::wrong_beam_count, "wrong_beam_count"},
+                                                              {Refusal::unknown_sensor, "unknown_sensor"},
+                                                              {Refusal::pose_not_finite, "pose_not_finite"}});
 static_assert(kRuleNames.size() == kRuleCount && kModelNames.size() == kModelCount &&
               kRefusalNames.size() == kRefusalCount);
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // "One number" of a SIMD table: U vectors side by side, so that the long chains of a cell's polynomials and divisions
-// interleave. Included by exactly one table_*.cpp per target, after HWY_TARGET is set; the namespace is the target's own,
-// so the linker can never merge two targets' code.
+// interleave. Included by exactly one table_*.cpp per target, after HWY_TARGET is set; the namespace is the target's
+// own, so the linker can never merge two targets' code.
 #pragma once
 #include <cstdint>
 
 #include "hwy/highway.h"
 
 #define EVIGRID_FN HWY_INLINE
-#define EVIGRID_CELL_BEGIN    \
-  HWY_BEFORE_NAMESPACE();     \
+#define EVIGRID_CELL_BEGIN     \
+  HWY_BEFORE_NAMESPACE();      \
   namespace evigrid::kernels { \
   namespace EVIGRID_TARGET_NAMESPACE {
 #define EVIGRID_CELL_END \
@@ -38,23 +38,23 @@ struct Pack {
   }
 };
 
-#define EVIGRID_BINARY(op, expr)                                            \
-  HWY_INLINE Pack op(const Pack& a, const Pack& b) {                        \
-    Pack r;                                                                 \
-    for (int i = 0; i < kUnroll; ++i) r.v[i] = expr(a.v[i], b.v[i]);        \
-    return r;                                                               \
+#define EVIGRID_BINARY(op, expr)                                     \
+  HWY_INLINE Pack op(const Pack& a, const Pack& b) {                 \
+    Pack r;                                                          \
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = expr(a.v[i], b.v[i]); \
+    return r;                                                        \
   }
-#define EVIGRID_COMPARE(op, expr)                                           \
-  HWY_INLINE PackMask op(const Pack& a, const Pack& b) {                    \
-    PackMask r;                                                             \
-    for (int i = 0; i < kUnroll; ++i) r.v[i] = expr(a.v[i], b.v[i]);        \
-    return r;                                                               \
+#define EVIGRID_COMPARE(op, expr)                                    \
+  HWY_INLINE PackMask op(const Pack& a, const Pack& b) {             \
+    PackMask r;                                                      \
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = expr(a.v[i], b.v[i]); \
+    return r;                                                        \
   }
-#define EVIGRID_MASK(op, expr)                                              \
-  HWY_INLINE PackMask op(const PackMask& a, const PackMask& b) {            \
-    PackMask r;                                                             \
-    for (int i = 0; i < kUnroll; ++i) r.v[i] = expr(a.v[i], b.v[i]);        \
-    return r;                                                               \
+#define EVIGRID_MASK(op, expr)                                       \
+  HWY_INLINE PackMask op(const PackMask& a, const PackMask& b) {     \
+    PackMask r;                                                      \
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = expr(a.v[i], b.v[i]); \
+    return r;                                                        \
   }
 EVIGRID_BINARY(operator+, hn::Add)
 EVIGRID_BINARY(operator-, hn::Sub)

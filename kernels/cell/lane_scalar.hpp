@@ -8,8 +8,7 @@
 #include <cstring>
 
 #define EVIGRID_FN inline
-#define EVIGRID_CELL_BEGIN \
-  namespace evigrid::kernels::scalar {
+#define EVIGRID_CELL_BEGIN namespace evigrid::kernels::scalar {
 #define EVIGRID_CELL_END }
 
 EVIGRID_CELL_BEGIN
@@ -21,13 +20,19 @@ inline double neg_mul_add(double a, double b, double c) { return std::fma(-a, b,
 inline float root(float a) { return std::sqrt(a); }
 inline double root(double a) { return std::sqrt(a); }
 template <class T>
-inline T select(bool m, T a, T b) { return m ? a : b; }
+inline T select(bool m, T a, T b) {
+  return m ? a : b;
+}
 inline bool both(bool a, bool b) { return a && b; }
 inline bool either(bool a, bool b) { return a || b; }
 template <class T>
-inline T max_of(T a, T b) { return a > b ? a : b; }
+inline T max_of(T a, T b) {
+  return a > b ? a : b;
+}
 template <class T>
-inline T min_of(T a, T b) { return a < b ? a : b; }
+inline T min_of(T a, T b) {
+  return a < b ? a : b;
+}
 /// p · 2^n for the integer n whose bits stand in the low end of `magic` (see exp2_poly).
 inline float scale_by_magic(float p, float magic) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(p) + (std::bit_cast<std::uint32_t>(magic) << 23));

@@ -24,12 +24,16 @@ struct PlainSource {
   V x, y, v;
 };
 template <class V>
-EVIGRID_FN V scale(const Source<V>& m) { return m.s; }
+EVIGRID_FN V scale(const Source<V>& m) {
+  return m.s;
+}
 template <class V>
-EVIGRID_FN V scale(const PlainSource<V>&) { return V(1.0f); }
+EVIGRID_FN V scale(const PlainSource<V>&) {
+  return V(1.0f);
+}
 
-/// What one combination gives: the new cell and the conflict k of the two normalised operands. Rules that can meet total
-/// conflict (Rule::kTotalPossible) say where they did: the cell is then vacuous, by policy.
+/// What one combination gives: the new cell and the conflict k of the two normalised operands. Rules that can meet
+/// total conflict (Rule::kTotalPossible) say where they did: the cell is then vacuous, by policy.
 template <class V>
 struct Combined {
   Cell<V> cell;
@@ -74,9 +78,13 @@ EVIGRID_FN Cell<V> settle(const Cell<V>& c) {
 
 /// k of the two normalised operands, from k·(source's sum): a plain source is normalised already.
 template <class V>
-EVIGRID_FN V conflict_of(const Source<V>&, const V& k, const V& inverse_sum) { return k * inverse_sum; }
+EVIGRID_FN V conflict_of(const Source<V>&, const V& k, const V& inverse_sum) {
+  return k * inverse_sum;
+}
 template <class V>
-EVIGRID_FN V conflict_of(const PlainSource<V>&, const V& k, const V&) { return k; }
+EVIGRID_FN V conflict_of(const PlainSource<V>&, const V& k, const V&) {
+  return k;
+}
 
 /// The conjunctive part; the order of additions makes it commutative and mirror-symmetric bit for bit.
 template <class V>
@@ -88,8 +96,8 @@ EVIGRID_FN Conjunctive<V> conjunctive(const Cell<V>& c, const S& m) {
   return {c.a * m.x + (c.a * m.v + c.u * m.x), c.b * m.y + (c.b * m.v + c.u * m.y), c.u * m.v, c.a * m.y + c.b * m.x};
 }
 
-/// Shafer's discount: every mass times `reliability`, the rest becomes unknown. `doubt` is 1 − reliability, rounded from
-/// double: 1 − 0.9f would be off by 2e-7 of itself, in every update the same way.
+/// Shafer's discount: every mass times `reliability`, the rest becomes unknown. `doubt` is 1 − reliability, rounded
+/// from double: 1 − 0.9f would be off by 2e-7 of itself, in every update the same way.
 template <class V>
 EVIGRID_FN Source<V> discount(const Source<V>& m, const V& reliability, const V& doubt) {
   const V x = m.x * reliability, y = m.y * reliability, z = m.z * reliability;
@@ -112,7 +120,9 @@ EVIGRID_FN Source<V> give_back(const Source<V>& m) {
 }
 
 template <class V>
-EVIGRID_FN PlainSource<V> give_back(const PlainSource<V>& m) { return m; }
+EVIGRID_FN PlainSource<V> give_back(const PlainSource<V>& m) {
+  return m;
+}
 
 /// Rules without a place for the paradoxical mass drop it.
 template <class V>
@@ -120,6 +130,8 @@ EVIGRID_FN Source<V> drop_paradox(const Source<V>& m) {
   return {m.x, m.y, m.v, V(0.0f), (m.x + m.y) + m.v};
 }
 template <class V>
-EVIGRID_FN PlainSource<V> drop_paradox(const PlainSource<V>& m) { return m; }
+EVIGRID_FN PlainSource<V> drop_paradox(const PlainSource<V>& m) {
+  return m;
+}
 
 EVIGRID_CELL_END

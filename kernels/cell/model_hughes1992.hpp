@@ -2,6 +2,9 @@
 // hughes1992 (Hughes & Murphy 1992): f = ½[(Rmax − d)/Rmax + (β − |θ|)/β]; m(empty) = f before the arc, m(occupied) =
 // f·Max_occupied on it. The paper gives the arc no width: `tolerance_m` is ours.
 #pragma once
+#include "kernels/cell/mass.hpp"
+#include "kernels/cell/polar.hpp"
+#include "kernels/cell/poly.hpp"
 
 EVIGRID_CELL_BEGIN
 
@@ -10,7 +13,7 @@ struct ModelHughes1992 {
   static EVIGRID_FN PlainSource<V> measure(const ConeReading& q, const Polar<V>& p) {
     const V zero(0.0f), one(1.0f);
     const V d = root(p.d2);
-    const V sine = min_of(p.nl, p.nr) / nonzero(d);  // sine of the angle to the nearer edge, β − |θ|
+    const V sine = min_of(p.nl, p.nr) / nonzero(d);                // sine of the angle to the nearer edge, β − |θ|
     const V angular = sine * cubic(q.hughes.margin, sine * sine);  // (β − |θ|)/(2β)
     const V f = max_of(min_of(mul_add(d, V(q.hughes.slope), V(0.5f)) + angular, one), zero);
     const auto on_arc = p.edge >= zero;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // li2014 (Li, Huang, Wang, Dezert 2014, eq. 8–13), unnormalised and divided by exp(−d²/(2(RρE)²)), so that two
-// exponentials are left and the tanh of the thin ignorance shell becomes a fitted cubic. λ is computed from the margins to
-// both edges (no subtraction: it must be right relatively near the edge), d − R with one Newton step (the shell is steep).
+// exponentials are left and the tanh of the thin ignorance shell becomes a fitted cubic. λ is computed from the margins
+// to both edges (no subtraction: it must be right relatively near the edge), d − R with one Newton step (the shell is
+// steep).
 #pragma once
+#include "kernels/cell/mass.hpp"
+#include "kernels/cell/polar.hpp"
+#include "kernels/cell/poly.hpp"
 
 EVIGRID_CELL_BEGIN
 

@@ -3,6 +3,7 @@
 // membership, and d² against the model's rings as sums of two floats. Exact on the lattice of docs/maths.md: Kahan's
 // difference of products for the edges, two-float remainders for the rings; half of it is hoisted per row of cells.
 #pragma once
+#include <type_traits>
 
 #include "kernels/row/reading.hpp"
 
@@ -11,8 +12,8 @@ EVIGRID_CELL_BEGIN
 /// dy-dependent parts of one row of cells.
 template <class V>
 struct RowTerms {
-  V yy;                // dy²
-  V wl, el, wr, er;    // dy·lx and dy·rx as rounded product and its error
+  V yy;                      // dy²
+  V wl, el, wr, er;          // dy·lx and dy·rx as rounded product and its error
   V ring_hi[3], ring_lo[3];  // dy² − T² exactly, as two floats, for each ring
 };
 

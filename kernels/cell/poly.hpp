@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Polynomials of ours, fitted by Remez; libm's differ between processors. Errors: relative for 2^y, in resulting mass for
-// the logarithm (docs/maths.md states the bound on masses, a test holds it).
+// Polynomials of ours, fitted by Remez; libm's differ between processors. Errors: relative for 2^y, in resulting mass
+// for the logarithm (docs/maths.md states the bound on masses, a test holds it).
 #pragma once
 
 EVIGRID_CELL_BEGIN
@@ -18,9 +18,9 @@ EVIGRID_FN V exp2_poly(const V& y) {
   return scale_by_magic(p, n);
 }
 
-/// √(80·log2 e)·ln r for t = r − 1.1 within [−0.463, 0.516]: the exponent of li2014's paradoxical mass at ρC = 80. Fitted
-/// with the weight that the mass 2^(−l²) gives to an error of l: the mass is right to 1.7e-7. Beyond that range the mass is
-/// below 5e-7 and the argument is clamped by the caller.
+/// √(80·log2 e)·ln r for t = r − 1.1 within [−0.463, 0.516]: the exponent of li2014's paradoxical mass at ρC = 80.
+/// Fitted with the weight that the mass 2^(−l²) gives to an error of l: the mass is right to 1.7e-7. Beyond that range
+/// the mass is below 5e-7 and the argument is clamped by the caller.
 template <class V>
 EVIGRID_FN V scaled_log(const V& t) {
   V p = mul_add(V(-0.8522990942f), t, V(1.009788990f));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dempster's rule (Shafer 1976): the conjunctive part divided by its own sum e + o + t, never by 1 − k, whose float error
-// lets Σm leave 1. Total conflict (a sum of 0; in a map below 1e-12) answers with the vacuous mass and is counted.
+// Dempster's rule (Shafer 1976): the conjunctive part divided by its own sum e + o + t, never by 1 − k, whose float
+// error lets Σm leave 1. Total conflict (a sum of 0; in a map below 1e-12) answers with the vacuous mass and is
+// counted.
 #pragma once
+#include "kernels/cell/mass.hpp"
 
 EVIGRID_CELL_BEGIN
 
@@ -14,7 +16,7 @@ struct Dempster {
     const V k = q.k, zero(0.0f), one(1.0f);
     V sum = (q.e + q.o) + q.t;
     const auto total = sum <= V(State::kTotal) * scale(m);
-    V all = sum + k;  // the source's sum up to rounding
+    V all = sum + k;                  // the source's sum up to rounding
     if constexpr (!State::kFloors) {  // a sum as small as a denormal is still divided exactly
       const V up = select(sum < V(kTiny), V(1.2676506e30f), one);  // 2^100
       q.e = q.e * up, q.o = q.o * up, q.t = q.t * up, sum = sum * up;

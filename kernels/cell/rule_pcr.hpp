@@ -3,6 +3,7 @@
 // quotients are multiplied out, so that each rule costs one division; products of small masses are cut at 1e-16 before
 // they could become denormal (the share they would have had is below 5e-9 of a mass).
 #pragma once
+#include "kernels/cell/mass.hpp"
 
 EVIGRID_CELL_BEGIN
 

@@ -91,7 +91,8 @@ ConeReading compile_cone(const ConeType& t, const SensorPose& pose, double range
   const double c = s.cell_m;
   ConeReading q;
   place(q, pose, c, t.lattice);
-  const Direction left = direction(pose.yaw_rad + s.aperture_rad / 2), right = direction(pose.yaw_rad - s.aperture_rad / 2);
+  const Direction left = direction(pose.yaw_rad + s.aperture_rad / 2),
+                  right = direction(pose.yaw_rad - s.aperture_rad / 2);
   q.lx = left.x, q.ly = left.y, q.rx = right.x, q.ry = right.y;
   q.reliability = static_cast<float>(s.reliability);
   q.doubt = static_cast<float>(1 - s.reliability);
@@ -154,8 +155,7 @@ void compile_fan(const FanSpec& s, const SensorPose& pose, const float* ranges_m
     out.border_y[at] = d.y;
     if (i == s.beams) break;
     const double r = ranges_m[i];
-    out.range[at] = r < 0 ? kNoBeam
-                          : static_cast<float>(r > s.max_range_m ? far + margin : quantise(r / c, lattice));
+    out.range[at] = r < 0 ? kNoBeam : static_cast<float>(r > s.max_range_m ? far + margin : quantise(r / c, lattice));
   }
   for (std::size_t i = 0; i < out.range.size(); ++i) {  // box: both borders of a beam at its reach (and a little)
     if (out.range[i] < 0) continue;

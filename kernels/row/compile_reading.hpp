@@ -13,8 +13,8 @@ namespace evigrid::kernels {
 struct ConeSpec {
   int model = 1;  // 0 hughes1992, 1 li2014
   double cell_m, aperture_rad, min_range_m, max_range_m, reliability;
-  double r_max_m, max_occupied, tolerance_m;             // hughes1992
-  double rho_e, rho_o, rho_c, rho_i, epsilon_ratio;      // li2014
+  double r_max_m, max_occupied, tolerance_m;         // hughes1992
+  double rho_e, rho_o, rho_c, rho_i, epsilon_ratio;  // li2014
 };
 
 struct ConeType {

@@ -2,6 +2,7 @@
 // The batched combination: n independent pairs over arrays, no floors. Loads of a step come before its stores, so C may
 // be A or B.
 #pragma once
+#include "kernels/cell/mass.hpp"
 
 #include "kernels/row/kernel_table.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which beam and which class a cell centre has, decided exactly in double (products of lattice numbers are exact there).
-// The SIMD kernels ask it only for the few cells that are too near a border to be sure in float.
+// Which beam and which class a cell centre has, decided exactly in double (products of lattice numbers are exact
+// there). The SIMD kernels ask it only for the few cells that are too near a border to be sure in float.
 #pragma once
 #include "kernels/row/reading.hpp"
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop over the micro-tiles of one tile for one cone: centre → polar → model → discount → rule → store, in registers.
+// The loop over the micro-tiles of one tile for one cone: centre → polar → model → discount → rule → store, in
+// registers.
 #pragma once
+#include "kernels/cell/mass.hpp"
+#include "kernels/cell/polar.hpp"
 
 #include "kernels/row/kernel_table.hpp"
 
@@ -26,8 +29,9 @@ struct ConeFrame {
     const int last = (a.micros[a.micro_count - 1] / kMicrosPerSide + 1) * kMicroCells;
     for (int i = first; i < last; i += Lanes::kLanes) {
       const RowTerms<Lanes::V> r = row_terms(q, Lanes::load_flat(&dy[0][0] + i));
-      const Lanes::V* terms[kRowArrays] = {&r.yy,         &r.wl,         &r.el,         &r.wr,         &r.er,        &r.ring_hi[0],
-                                           &r.ring_hi[1], &r.ring_hi[2], &r.ring_lo[0], &r.ring_lo[1], &r.ring_lo[2]};
+      const Lanes::V* terms[kRowArrays] = {&r.yy,         &r.wl,         &r.el,         &r.wr,
+                                           &r.er,         &r.ring_hi[0], &r.ring_hi[1], &r.ring_hi[2],
+                                           &r.ring_lo[0], &r.ring_lo[1], &r.ring_lo[2]};
       for (int t = 0; t < kRowArrays; ++t) Lanes::store_flat(&rows[t][0][0] + i, *terms[t]);
     }
   }
@@ -41,8 +45,9 @@ struct ConeStep {
 
   EVIGRID_FN RowTerms<Lanes::V> terms(const ConeFrame& f, int part) const {
     RowTerms<Lanes::V> r;
-    Lanes::V* out[kRowArrays] = {&r.yy,         &r.wl,         &r.el,         &r.wr,         &r.er,        &r.ring_hi[0],
-                                 &r.ring_hi[1], &r.ring_hi[2], &r.ring_lo[0], &r.ring_lo[1], &r.ring_lo[2]};
+    Lanes::V* out[kRowArrays] = {&r.yy,         &r.wl,         &r.el,         &r.wr,
+                                 &r.er,         &r.ring_hi[0], &r.ring_hi[1], &r.ring_hi[2],
+                                 &r.ring_lo[0], &r.ring_lo[1], &r.ring_lo[2]};
     for (int t = 0; t < kRowArrays; ++t) {
       const float* at[Lanes::kMicros];
       for (int m = 0; m < Lanes::kMicros; ++m) at[m] = f.rows[t][band[m]];
@@ -129,9 +134,13 @@ void fuse_cone(const TileArgs& a, const ConeReading& q, Stats& stats) {
 
 /// A source as memory holds it, and back: a plain one keeps its kind, so that both paths run the same functions.
 template <class V>
-EVIGRID_FN Source<V> widen(const Source<V>& m) { return m; }
+EVIGRID_FN Source<V> widen(const Source<V>& m) {
+  return m;
+}
 template <class V>
-EVIGRID_FN Source<V> widen(const PlainSource<V>& m) { return {m.x, m.y, m.v, V(0.0f), V(1.0f)}; }
+EVIGRID_FN Source<V> widen(const PlainSource<V>& m) {
+  return {m.x, m.y, m.v, V(0.0f), V(1.0f)};
+}
 template <class Kind, class V>
 EVIGRID_FN Kind narrow(const Source<V>& m) {
   if constexpr (requires(Kind k) { k.z; }) {
@@ -160,7 +169,8 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
     std::uint64_t bits = 0;
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
-      const Source<Lanes::V> s = widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt)));
+      const Source<Lanes::V> s =
+          widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt)));
       alignas(64) float masses[5][Lanes::kLanes];
       const Lanes::V* const from[5] = {&s.x, &s.y, &s.v, &s.z, &s.s};
       float* const to[5] = {out.x, out.y, out.v, out.z, out.s};

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop over the micro-tiles of one tile for one fan of beams: every cell of the footprint finds its beam and is updated
-// once. Beam and class come from float arithmetic with a margin; the few cells inside the margin are decided exactly in
-// double (fan_exact.hpp), so that every table agrees on every cell.
+// The loop over the micro-tiles of one tile for one fan of beams: every cell of the footprint finds its beam and is
+// updated once. Beam and class come from float arithmetic with a margin; the few cells inside the margin are decided
+// exactly in double (fan_exact.hpp), so that every table agrees on every cell.
 #pragma once
+#include "kernels/cell/mass.hpp"
+#include "kernels/cell/poly.hpp"
+#include "kernels/row/fuse_cone.hpp"
 
 #include "kernels/row/fan_exact.hpp"
 #include "kernels/row/kernel_table.hpp"
@@ -54,7 +57,8 @@ void fuse_fan_planes(const TileArgs& a, const FanReading& q_in, Stats& stats) {
       const auto reach = both(d >= V(q.near) - slack, d <= V(q.far) + slack);
       if (!Lanes::any(reach)) continue;
       // Beam: index of the border below, with the fraction that says how sure it is.
-      const V ahead = mul_add(V(q.mid_cos), dx, V(q.mid_sin) * dy), left = mul_add(V(q.mid_cos), dy, zero - V(q.mid_sin) * dx);
+      const V ahead = mul_add(V(q.mid_cos), dx, V(q.mid_sin) * dy),
+              left = mul_add(V(q.mid_cos), dy, zero - V(q.mid_sin) * dx);
       const V t = mul_add(coarse_angle(ahead, left), V(q.beams_per_rad), V(q.half_beams));
       const V index = Lanes::floor(t), fraction = t - index;
       const V last(static_cast<float>(q.beams - 1));

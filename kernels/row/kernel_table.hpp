@@ -12,8 +12,8 @@
 namespace evigrid::kernels {
 
 inline constexpr int kTileSide = 64, kMicroSide = 4, kMicrosPerSide = 16, kMicrosPerTile = 256, kMicroCells = 16;
-inline constexpr int kRules = 4;        // dempster, pcr2, pcr5, germ_pcr2: the order of evigrid::Rule
-inline constexpr int kConeModels = 2;   // hughes1992, li2014
+inline constexpr int kRules = 4;       // dempster, pcr2, pcr5, germ_pcr2: the order of evigrid::Rule
+inline constexpr int kConeModels = 2;  // hughes1992, li2014
 
 struct Stats {
   std::uint64_t cells = 0;            // updates
@@ -25,8 +25,8 @@ struct Stats {
 struct TileArgs {
   float* cells = nullptr;
   bool conflict_plane = false;
-  float x0 = 0, y0 = 0;                    // offset of the tile's first cell centre from the apex, exact
-  const std::uint8_t* micros = nullptr;    // micro-tiles that may be touched, ascending
+  float x0 = 0, y0 = 0;                  // offset of the tile's first cell centre from the apex, exact
+  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched, ascending
   int micro_count = 0;
 };
 

@@ -19,10 +19,14 @@ SinCos portable_sincos(double angle) noexcept {
   }
   const double sine = r + r * s, cosine = 1 + c;
   switch (static_cast<long long>(n) & 3) {
-    case 0: return {sine, cosine};
-    case 1: return {cosine, -sine};
-    case 2: return {-sine, -cosine};
-    default: return {-cosine, sine};
+    case 0:
+      return {sine, cosine};
+    case 1:
+      return {cosine, -sine};
+    case 2:
+      return {-sine, -cosine};
+    default:
+      return {-cosine, sine};
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reading as the kernels see it: compiled once in double on the lattice of docs/maths.md, then plain floats. Lengths in
-// cells, offsets from the quantised apex.
+// A reading as the kernels see it: compiled once in double on the lattice of docs/maths.md, then plain floats. Lengths
+// in cells, offsets from the quantised apex.
 #pragma once
 #include <cstdint>
 
@@ -23,12 +23,12 @@ struct HughesConstants {
 };
 
 struct ConeReading {
-  std::int64_t i0 = 0, j0 = 0;  // cell whose centre the apex offset counts from
-  float fx = 0, fy = 0;         // apex = (i0 + fx, j0 + fy) in cell centres
+  std::int64_t i0 = 0, j0 = 0;           // cell whose centre the apex offset counts from
+  float fx = 0, fy = 0;                  // apex = (i0 + fx, j0 + fy) in cell centres
   float lx = 0, ly = 0, rx = 0, ry = 0;  // directions of the left and right edge
-  Ring ring[3];                 // farthest, nearest, and the model's own edge
-  float outer = 0;              // farthest distance
-  float reliability = 1, doubt = 0;         // doubt = 1 − reliability
+  Ring ring[3];                          // farthest, nearest, and the model's own edge
+  float outer = 0;                       // farthest distance
+  float reliability = 1, doubt = 0;      // doubt = 1 − reliability
   LiConstants li{};
   HughesConstants hughes{};
 };
@@ -41,9 +41,9 @@ struct FanReading {
   const float* range = nullptr;     // per beam, quantised; kNoBeam where refused
   const float* border_x = nullptr;  // beams + 1 directions between the beams
   const float* border_y = nullptr;
-  float mid_cos = 1, mid_sin = 0;   // middle of the fan, only to find candidates
+  float mid_cos = 1, mid_sin = 0;  // middle of the fan, only to find candidates
   float beams_per_rad = 0, half_beams = 0, angle_slack = 0;
-  float near = 0, far = 0;          // closed limits of d
+  float near = 0, far = 0;  // closed limits of d
   float empty_margin = 0, half_width = 0;
   float empty = 0, occupied = 0, fall = 0;  // masses at d = 0 after discount; share lost per cell
 };

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "kernels/cell/mass.hpp"
+#include "kernels/cell/model_hughes1992.hpp"
+#include "kernels/cell/model_li2014.hpp"
+#include "kernels/cell/polar.hpp"
 #include "kernels/cell/poly.hpp"
 #include "kernels/cell/rule_dempster.hpp"
 #include "kernels/cell/rule_pcr.hpp"
-#include "kernels/cell/polar.hpp"
-#include "kernels/cell/model_hughes1992.hpp"
-#include "kernels/cell/model_li2014.hpp"
 #include "kernels/row/dense.hpp"
 #include "kernels/row/fuse_cone.hpp"
 #include "kernels/row/fuse_fan.hpp"

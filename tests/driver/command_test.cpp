@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "evigrid/scenes/scene.hpp"
 #include "program.hpp"
 #include "records.hpp"
 
@@ -127,6 +128,14 @@ TEST(Run, EmbeddedSceneWithItsTimesApart) {
   EXPECT_GT(r["fusion_s"], 0);
   EXPECT_LE(r["cast_s"].get<double>() + r["fusion_s"].get<double>(), r["wall_s"].get<double>());
   EXPECT_TRUE(dir.names().contains("out/map.png"));
+}
+
+TEST(Run, TheScenesRuleUnlessTheUserNamesOne) {
+  const TempDir dir;
+  const std::string wanted = scenes::parse_scene(scenes::default_scene_text(), "embedded").map.rule;
+  const std::string other = wanted == "pcr2" ? "pcr5" : "pcr2";
+  EXPECT_EQ(Json::parse(evigrid({"run", "-o", dir.at("out"), "--json", "-"}).out)["rule"], wanted);
+  EXPECT_EQ(Json::parse(evigrid({"run", "-o", dir.at("out"), "--json", "-", "--rule", other}).out)["rule"], other);
 }
 
 TEST(Cast, RowsForEveryStepAndSensor) {

@@ -27,7 +27,8 @@ struct Arrays {
   Planes<const float> in() const { return {e.data(), o.data(), u.data()}; }
   Planes<float> out() { return {e.data(), o.data(), u.data()}; }
   bool operator==(const Arrays& b) const {
-    return e.empty() || (std::memcmp(e.data(), b.e.data(), e.size() * 4) == 0 && std::memcmp(o.data(), b.o.data(), o.size() * 4) == 0 &&
+    return e.empty() || (std::memcmp(e.data(), b.e.data(), e.size() * 4) == 0 &&
+                         std::memcmp(o.data(), b.o.data(), o.size() * 4) == 0 &&
                          std::memcmp(u.data(), b.u.data(), u.size() * 4) == 0);
   }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fused equals unfused, bit for bit: masses that never leave the registers against masses written to memory and combined
-// from there, for every table, rule and model. And the footprints lose no cell: listing every micro-tile changes nothing.
+// Fused equals unfused, bit for bit: masses that never leave the registers against masses written to memory and
+// combined from there, for every table, rule and model. And the footprints lose no cell: listing every micro-tile
+// changes nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -42,7 +42,8 @@ inline std::unique_ptr<Drive> drive(Model model, int steps, unsigned seed) {
   for (int step = 0; step < steps; ++step) {
     const bool aligned = step % 3 == 0;
     const double yaw = aligned ? (step % 24) * M_PI / 12 : 2 * M_PI * u(rng);
-    const Pose2 pose = aligned ? Pose2{0.05 * (step % 40) + 0.025, -0.05 * (step % 17), yaw} : Pose2{3 * u(rng), 3 * u(rng), yaw};
+    const Pose2 pose =
+        aligned ? Pose2{0.05 * (step % 40) + 0.025, -0.05 * (step % 17), yaw} : Pose2{3 * u(rng), 3 * u(rng), yaw};
     std::vector<Reading> readings;
     for (SensorId i = 0; i < d->sensors.size(); ++i) {
       std::vector<float> r;

@@ -74,7 +74,8 @@ TEST_P(SameBits, OnTheHostsThreads) {
 }
 
 TEST_P(SameBits, AcrossThreadsExecutorsAndBatches) {
-  if (kThreadSanitizer) GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
+  if (kThreadSanitizer)
+    GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
   const auto [rule, model] = GetParam();
   const auto d = drive(model, 20, 12);
   const MapParams params{.rule = rule};
@@ -106,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(All, SameBits,
                          ::testing::Combine(::testing::ValuesIn(all_rules().begin(), all_rules().end()),
                                             ::testing::Values(Model::hughes1992, Model::li2014)),
                          [](const auto& which) {
-                           return std::string(name(std::get<0>(which.param))) + "_" + std::string(name(std::get<1>(which.param)));
+                           return std::string(name(std::get<0>(which.param))) + "_" +
+                                  std::string(name(std::get<1>(which.param)));
                          });
 
 }  // namespace

@@ -89,7 +89,8 @@ ReferenceMap::Gate ReferenceMap::gate(const Sensor& sensor, float range_m) {
 }
 
 void ReferenceMap::cone(const Declared& declared, const Pose2& pose, float range_m) {
-  const auto& [sensor, lattice] = declared;
+  const auto& sensor = declared.sensor;
+  const auto& lattice = declared.lattice;
   if (gate(sensor, range_m) != Gate::use) return;
   const double cell = params_.cell_m;
   const Direction left = direction(pose.yaw_rad + sensor.aperture_rad / 2);
@@ -122,7 +123,8 @@ void ReferenceMap::cone(const Declared& declared, const Pose2& pose, float range
 }
 
 void ReferenceMap::fan(const Declared& declared, const Pose2& pose, std::span<const float> ranges_m) {
-  const auto& [sensor, lattice] = declared;
+  const auto& sensor = declared.sensor;
+  const auto& lattice = declared.lattice;
   const double cell = params_.cell_m;
   const int beams = sensor.beams;
   const double farthest = lattice.round(sensor.max_range_m / cell);

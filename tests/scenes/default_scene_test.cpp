@@ -25,7 +25,7 @@ TEST(DefaultScene, IsTheFileOfTheSourceTree) {
 
 TEST(DefaultScene, HasTheRingAndTheRoom) {
   const Scene s = room();
-  EXPECT_EQ(s.map.rule, "pcr5");
+  EXPECT_EQ(s.map.rule, "dempster");
   EXPECT_EQ(s.map.cell_m, 0.05);
   ASSERT_EQ(s.sonars.size(), 24u);
   for (const SonarSpec& sonar : s.sonars) {

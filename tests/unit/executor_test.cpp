@@ -45,7 +45,8 @@ void run(Executor& e, Seen& seen, int wait_us) {
 }
 
 TEST(Executor, EveryIndexOnceAndWorkersInRange) {
-  if (testing::kThreadSanitizer) GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
+  if (testing::kThreadSanitizer)
+    GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
   for (const char* name : {"serial", "tbb", "openmp"}) {
     for (const int threads : {1, 2, 7}) {
       const auto e = make_executor(name, threads);
@@ -64,7 +65,8 @@ TEST(Executor, EveryIndexOnceAndWorkersInRange) {
 }
 
 TEST(Executor, TheThreadsAskedForReallyRun) {
-  if (testing::kThreadSanitizer) GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
+  if (testing::kThreadSanitizer)
+    GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
   Seen serial(50), openmp(700);
   run(*make_serial_executor(), serial, 10);
   EXPECT_EQ(serial.threads.size(), 1u);

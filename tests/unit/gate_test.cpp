@@ -43,9 +43,9 @@ TEST(Gate, SonarReasons) {
   const struct {
     float range;
     Refusal why;
-  } cases[] = {{kNan, Refusal::not_a_number}, {kInf, Refusal::no_return},   {-kInf, Refusal::too_close},
-               {-0.5f, Refusal::negative},    {0.1f, Refusal::too_close},   {0.0f, Refusal::too_close},
-               {5.0f, Refusal::no_return},    {7.0f, Refusal::no_return},   {3.5f, Refusal::above_max_range},
+  } cases[] = {{kNan, Refusal::not_a_number}, {kInf, Refusal::no_return}, {-kInf, Refusal::too_close},
+               {-0.5f, Refusal::negative},    {0.1f, Refusal::too_close}, {0.0f, Refusal::too_close},
+               {5.0f, Refusal::no_return},    {7.0f, Refusal::no_return}, {3.5f, Refusal::above_max_range},
                {1e30f, Refusal::no_return},   {-1e30f, Refusal::negative}};
   for (const auto& c : cases) {
     Map map({}, make_serial_executor());

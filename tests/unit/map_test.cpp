@@ -60,7 +60,8 @@ TEST(Map, RendersEveryLayerIntoACallersBuffer) {
   see(f, 1);
   const CellRect rect{-5, -70, 80, 140};
   const std::ptrdiff_t stride = 96;
-  std::vector<float> betp(static_cast<std::size_t>(stride) * 140, -7), bel = betp, pl = betp, e = betp, u = betp, k = betp;
+  std::vector<float> betp(static_cast<std::size_t>(stride) * 140, -7), bel = betp, pl = betp, e = betp, u = betp,
+                                                                       k = betp;
   f.map.render(Layer::betp, rect, betp, stride);
   f.map.render(Layer::bel, rect, bel, stride);
   f.map.render(Layer::pl, rect, pl, stride);
@@ -98,7 +99,10 @@ TEST(Map, BatchesAreTheSameAsSingleScans) {
   std::vector<Reading> readings;
   for (auto& r : ranges) readings.push_back({0, {&r, 1}});
   std::vector<Scan> scans;
-  for (std::size_t i = 0; i < ranges.size(); ++i) scans.push_back({static_cast<std::int64_t>(i), {0.1 * static_cast<double>(i), -3, 0.3 * static_cast<double>(i)}, {&readings[i], 1}});
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    scans.push_back({static_cast<std::int64_t>(i),
+                     {0.1 * static_cast<double>(i), -3, 0.3 * static_cast<double>(i)},
+                     {&readings[i], 1}});
   Report one, all = b.map.integrate(scans);
   for (const auto& s : scans) one += a.map.integrate(s);
   EXPECT_EQ(a.map.hash(), b.map.hash());

@@ -34,7 +34,9 @@ TEST(Pose, ComposesAsAnIsometry) {
   std::uniform_real_distribution<double> u(-10, 10);
   for (int i = 0; i < 1000; ++i) {
     const Pose2 a{u(rng), u(rng), u(rng)}, b{u(rng), u(rng), u(rng)};
-    const auto iso = [](const Pose2& p) { return Eigen::Isometry2d(Eigen::Translation2d(p.x_m, p.y_m) * Eigen::Rotation2Dd(p.yaw_rad)); };
+    const auto iso = [](const Pose2& p) {
+      return Eigen::Isometry2d(Eigen::Translation2d(p.x_m, p.y_m) * Eigen::Rotation2Dd(p.yaw_rad));
+    };
     const Pose2 c = compose(a, b);
     EXPECT_TRUE((iso(a) * iso(b)).isApprox(iso(c), 1e-12));
   }

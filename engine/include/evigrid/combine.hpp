@@ -18,9 +18,9 @@ struct Planes {
   T* u = nullptr;
 };
 
-/// C = A ⊕ B; C may be A (in place). `conflict` (may be null) receives k of each pair. Without an executor it runs on the
-/// calling thread. Returns how many pairs were in total conflict: Dempster answers those with the vacuous mass.
-/// No floor is applied: exact inputs give the exact rule. Throws std::invalid_argument for a kernel that cannot run.
+/// C = A ⊕ B; C may be A (in place). `conflict` (may be null) receives k of each pair. Without an executor it runs on
+/// the calling thread. Returns how many pairs were in total conflict: Dempster answers those with the vacuous mass. No
+/// floor is applied: exact inputs give the exact rule. Throws std::invalid_argument for a kernel that cannot run.
 std::uint64_t combine(Rule, Planes<const float> a, Planes<const float> b, Planes<float> c, float* conflict,
                       std::size_t n, Kernel = Kernel::automatic, Executor* = nullptr);
 std::uint64_t combine(Rule, Planes<const double> a, Planes<const double> b, Planes<double> c, double* conflict,

@@ -17,11 +17,12 @@
 namespace evigrid {
 
 struct MapParams {
-  double cell_m = 0.05;                              ///< side of a cell
-  Rule rule = Rule::pcr5;                            ///< combination rule of the whole map
-  Kernel kernel = Kernel::automatic;                 ///< which kernels run
-  bool keep_conflict = true;                         ///< a plane with the running sum of k
-  std::size_t memory_cap_bytes = std::size_t{4} << 30;  ///< of the tiles; integrate() throws std::length_error beyond it
+  double cell_m = 0.05;               ///< side of a cell
+  Rule rule = Rule::pcr5;             ///< combination rule of the whole map
+  Kernel kernel = Kernel::automatic;  ///< which kernels run
+  bool keep_conflict = true;          ///< a plane with the running sum of k
+  std::size_t memory_cap_bytes = std::size_t{4}
+                                 << 30;  ///< of the tiles; integrate() throws std::length_error beyond it
 };
 [[nodiscard]] std::vector<ParamError> check(const MapParams&);
 
@@ -57,7 +58,7 @@ class Map {
   void clear();
   [[nodiscard]] const MapParams& params() const noexcept;
   [[nodiscard]] std::span<const Sensor> sensors() const noexcept;
-  [[nodiscard]] std::string_view kernel_name() const noexcept;     ///< what really runs: "scalar", "avx2", "avx512"
+  [[nodiscard]] std::string_view kernel_name() const noexcept;  ///< what really runs: "scalar", "avx2", "avx512"
   [[nodiscard]] std::string_view executor_name() const noexcept;
   [[nodiscard]] std::span<const std::uint64_t> tiles_per_worker() const noexcept;  ///< tile tasks each worker ran
   [[nodiscard]] std::size_t tiles() const noexcept;

@@ -28,29 +28,29 @@ struct Scan {
 
 /// Why a range was not used. Each is counted, none is silent.
 enum class Refusal : std::uint8_t {
-  not_a_number,        ///< NaN
-  too_close,           ///< −inf, or below the sensor's min_range_m
-  negative,            ///< below zero
-  no_return,           ///< +inf, or at least the sensor's no_return_m
-  above_max_range,     ///< a cone's reading beyond its max_range_m
-  wrong_beam_count,    ///< a fan's reading with another number of ranges than declared (counted once)
-  unknown_sensor,      ///< a sensor that was never added (counted once)
-  pose_not_finite,     ///< the scan's pose, or one too far away to index (every range counted)
+  not_a_number,      ///< NaN
+  too_close,         ///< −inf, or below the sensor's min_range_m
+  negative,          ///< below zero
+  no_return,         ///< +inf, or at least the sensor's no_return_m
+  above_max_range,   ///< a cone's reading beyond its max_range_m
+  wrong_beam_count,  ///< a fan's reading with another number of ranges than declared (counted once)
+  unknown_sensor,    ///< a sensor that was never added (counted once)
+  pose_not_finite,   ///< the scan's pose, or one too far away to index (every range counted)
 };
 inline constexpr int kRefusalCount = 8;
 std::string_view name(Refusal) noexcept;
 
 struct Report {
-  std::uint64_t readings_used = 0;                          ///< ranges that updated the map
-  std::array<std::uint64_t, kRefusalCount> refused{};       ///< by Refusal
-  std::uint64_t readings_clipped = 0;                       ///< used ones that lay beyond max_range_m (fans)
-  std::uint64_t stamps_backwards = 0;                       ///< scans older than the one before; still used
-  std::uint64_t cells_updated = 0;                          ///< pairs of a reading (fan: a scan) and a cell
-  std::uint64_t total_conflicts = 0;                        ///< updates answered by the total-conflict policy
-  float max_conflict = 0;                                   ///< largest k of one update
-  CellRect touched{};                                       ///< box of tiles that changed
+  std::uint64_t readings_used = 0;                     ///< ranges that updated the map
+  std::array<std::uint64_t, kRefusalCount> refused{};  ///< by Refusal
+  std::uint64_t readings_clipped = 0;                  ///< used ones that lay beyond max_range_m (fans)
+  std::uint64_t stamps_backwards = 0;                  ///< scans older than the one before; still used
+  std::uint64_t cells_updated = 0;                     ///< pairs of a reading (fan: a scan) and a cell
+  std::uint64_t total_conflicts = 0;                   ///< updates answered by the total-conflict policy
+  float max_conflict = 0;                              ///< largest k of one update
+  CellRect touched{};                                  ///< box of tiles that changed
   [[nodiscard]] std::uint64_t refused_total() const noexcept;
-  Report& operator+=(const Report&) noexcept;               ///< sums; touched becomes the union
+  Report& operator+=(const Report&) noexcept;  ///< sums; touched becomes the union
 };
 
 }  // namespace evigrid

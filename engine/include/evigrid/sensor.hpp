@@ -12,22 +12,22 @@ namespace evigrid {
 
 /// hughes1992 (Hughes & Murphy 1992). Distances are linear in (Rmax − d).
 struct Hughes1992 {
-  double r_max_m = 7.62;        ///< range at which belief has fallen to its angular part
-  double max_occupied = 0.98;   ///< largest m(occupied)
-  double tolerance_m = 0.15;    ///< half width of the occupied arc (ours: the paper gives none)
+  double r_max_m = 7.62;       ///< range at which belief has fallen to its angular part
+  double max_occupied = 0.98;  ///< largest m(occupied)
+  double tolerance_m = 0.15;   ///< half width of the occupied arc (ours: the paper gives none)
 };
 
 /// li2014 (Li, Huang, Wang, Dezert 2014, eq. 8–13).
 struct Li2014 {
   double rho_e = 0.35, rho_o = 0.1, rho_c = 80, rho_i = 10;  ///< dimensionless, of metres
-  double epsilon_ratio = 0.01;  ///< range error ε as a fraction of R
+  double epsilon_ratio = 0.01;                               ///< range error ε as a fraction of R
 };
 
 /// beam: laser range finder (ours).
 struct Beam {
-  double empty = 0.6, occupied = 0.8;      ///< masses at d = 0; both fall linearly to half at max_range_m
-  double empty_margin_m = 0.15;            ///< empty where d < R − empty_margin_m
-  double occupied_half_width_m = 0.10;     ///< occupied where |d − R| ≤ this
+  double empty = 0.6, occupied = 0.8;   ///< masses at d = 0; both fall linearly to half at max_range_m
+  double empty_margin_m = 0.15;         ///< empty where d < R − empty_margin_m
+  double occupied_half_width_m = 0.10;  ///< occupied where |d − R| ≤ this
 };
 
 struct Sensor {

@@ -22,12 +22,18 @@ bool vacuous(const Mass& m) noexcept { return m == Mass{}; }
 
 float value(Layer layer, const CellState& c) noexcept {
   switch (layer) {
-    case Layer::betp: return c.mass.o + c.mass.u * 0.5f;
-    case Layer::bel: return c.mass.o;
-    case Layer::pl: return c.mass.o + c.mass.u;
-    case Layer::empty: return c.mass.e;
-    case Layer::unknown: return c.mass.u;
-    case Layer::conflict: return c.conflict;
+    case Layer::betp:
+      return c.mass.o + c.mass.u * 0.5f;
+    case Layer::bel:
+      return c.mass.o;
+    case Layer::pl:
+      return c.mass.o + c.mass.u;
+    case Layer::empty:
+      return c.mass.e;
+    case Layer::unknown:
+      return c.mass.u;
+    case Layer::conflict:
+      return c.conflict;
   }
   return 0;
 }
@@ -65,15 +71,19 @@ CellRect occupied_bounds(const TileStore& store) {
 
 void render_layer(const TileStore& store, Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) {
   if (rect.empty()) return;
-  const auto needed = static_cast<std::size_t>(rect.height - 1) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(rect.width);
-  if (stride < rect.width || out.size() < needed) throw std::invalid_argument("render: the buffer is smaller than the rectangle");
+  const auto needed = static_cast<std::size_t>(rect.height - 1) * static_cast<std::size_t>(stride) +
+                      static_cast<std::size_t>(rect.width);
+  if (stride < rect.width || out.size() < needed)
+    throw std::invalid_argument("render: the buffer is smaller than the rectangle");
   for (std::int64_t y = rect.y; y < rect.y + rect.height; ++y) {
     float* row = out.data() + (y - rect.y) * stride;
     for (std::int64_t x = rect.x; x < rect.x + rect.width;) {
       const std::int64_t end = std::min((tile_coordinate(x) + 1) * kSide, rect.x + rect.width);
       const Tile* tile = store.find(tile_of(x, y));
       for (; x < end; ++x) {
-        *row++ = value(layer, tile == nullptr ? CellState{} : state_at(store, *tile, static_cast<int>(x & 63), static_cast<int>(y & 63)));
+        *row++ =
+            value(layer, tile == nullptr ? CellState{}
+                                         : state_at(store, *tile, static_cast<int>(x & 63), static_cast<int>(y & 63)));
       }
     }
   }
@@ -92,7 +102,8 @@ std::uint64_t hash_cells(const TileStore& store) {
           if (vacuous(m)) continue;
           h = mix(h, static_cast<std::uint64_t>(it->first.x * kSide + x));
           h = mix(h, static_cast<std::uint64_t>(it->first.y * kSide + y));
-          h = mix(h, std::bit_cast<std::uint32_t>(m.e) | static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(m.o)) << 32);
+          h = mix(h, std::bit_cast<std::uint32_t>(m.e) | static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(m.o))
+                                                             << 32);
           h = mix(h, std::bit_cast<std::uint32_t>(m.u));
         }
       }

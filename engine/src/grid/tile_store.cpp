@@ -10,7 +10,8 @@ namespace evigrid {
 
 void FreeAligned::operator()(float* p) const noexcept { std::free(p); }
 
-TileStore::TileStore(bool conflict_plane, std::size_t cap_bytes) : planes_(conflict_plane ? 4 : 3), cap_bytes_(cap_bytes) {}
+TileStore::TileStore(bool conflict_plane, std::size_t cap_bytes)
+    : planes_(conflict_plane ? 4 : 3), cap_bytes_(cap_bytes) {}
 
 std::size_t TileStore::tile_bytes() const noexcept {
   return static_cast<std::size_t>(kernels::kTileSide * kernels::kTileSide * planes_) * sizeof(float);

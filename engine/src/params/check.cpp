@@ -34,8 +34,12 @@ std::vector<ParamError> check(const Sensor& s) {
   check_rows(kSensorRows, s, errors);
   if (s.min_range_m >= s.max_range_m) errors.push_back({"sensor.min_range_m", "must be below max_range_m"});
   switch (s.model) {
-    case Model::hughes1992: check_rows(kHughesRows, s, errors); break;
-    case Model::li2014: check_rows(kLiRows, s, errors); break;
+    case Model::hughes1992:
+      check_rows(kHughesRows, s, errors);
+      break;
+    case Model::li2014:
+      check_rows(kLiRows, s, errors);
+      break;
     case Model::beam:
       check_rows(kBeamRows, s, errors);
       if (s.beam.empty_margin_m < s.beam.occupied_half_width_m) {

@@ -23,25 +23,29 @@ inline constexpr ParamRow<MapParams> kMapRows[] = {
 
 // Apertures above 40° would need a higher degree than the cubic fits of the cone's angular part have.
 inline constexpr ParamRow<Sensor> kSensorRows[] = {
-    {"sensor.aperture_rad", "rad", 0.0087, 0.7, [](const Sensor& s) { return s.model == Model::beam ? 0.1 : s.aperture_rad; }, "ours"},
+    {"sensor.aperture_rad", "rad", 0.0087, 0.7,
+     [](const Sensor& s) { return s.model == Model::beam ? 0.1 : s.aperture_rad; }, "ours"},
     {"sensor.min_range_m", "m", 0, 1e4, [](const Sensor& s) { return s.min_range_m; }, "ours"},
     {"sensor.max_range_m", "m", 1e-3, 1e4, [](const Sensor& s) { return s.max_range_m; }, "ours"},
     {"sensor.no_return_m", "m", 1e-3, 1e300, [](const Sensor& s) { return s.no_return_m; }, "ours"},
     {"sensor.reliability", "", 1e-6, 1, [](const Sensor& s) { return s.reliability; }, "Shafer 1976"},
     {"sensor.T_robot_sensor.x_m", "m", -1e4, 1e4, [](const Sensor& s) { return s.T_robot_sensor.x_m; }, "ours"},
     {"sensor.T_robot_sensor.y_m", "m", -1e4, 1e4, [](const Sensor& s) { return s.T_robot_sensor.y_m; }, "ours"},
-    {"sensor.T_robot_sensor.yaw_rad", "rad", -1e3, 1e3, [](const Sensor& s) { return s.T_robot_sensor.yaw_rad; }, "ours"},
+    {"sensor.T_robot_sensor.yaw_rad", "rad", -1e3, 1e3, [](const Sensor& s) { return s.T_robot_sensor.yaw_rad; },
+     "ours"},
 };
 
 inline constexpr ParamRow<Sensor> kHughesRows[] = {
     {"sensor.hughes.r_max_m", "m", 1e-2, 1e4, [](const Sensor& s) { return s.hughes.r_max_m; }, "Hughes & Murphy 1992"},
-    {"sensor.hughes.max_occupied", "", 0, 1, [](const Sensor& s) { return s.hughes.max_occupied; }, "Hughes & Murphy 1992"},
+    {"sensor.hughes.max_occupied", "", 0, 1, [](const Sensor& s) { return s.hughes.max_occupied; },
+     "Hughes & Murphy 1992"},
     {"sensor.hughes.tolerance_m", "m", 1e-4, 10, [](const Sensor& s) { return s.hughes.tolerance_m; }, "ours"},
 };
 
 // The fitted parts of the kernel hold their error inside these ranges.
 inline constexpr ParamRow<Sensor> kLiRows[] = {
-    {"sensor.min_range_m", "m (li2014 needs R > 0)", 1e-3, 1e4, [](const Sensor& s) { return s.min_range_m; }, "Li et al. 2014"},
+    {"sensor.min_range_m", "m (li2014 needs R > 0)", 1e-3, 1e4, [](const Sensor& s) { return s.min_range_m; },
+     "Li et al. 2014"},
     {"sensor.li.rho_e", "", 0.3, 1, [](const Sensor& s) { return s.li.rho_e; }, "Li et al. 2014, eq. 8"},
     {"sensor.li.rho_o", "", 0.02, 1, [](const Sensor& s) { return s.li.rho_o; }, "Li et al. 2014, eq. 9"},
     {"sensor.li.rho_c", "", 80, 320, [](const Sensor& s) { return s.li.rho_c; }, "Li et al. 2014, eq. 10"},
@@ -56,7 +60,8 @@ inline constexpr ParamRow<Sensor> kBeamRows[] = {
     {"sensor.beam.empty", "", 0, 1, [](const Sensor& s) { return s.beam.empty; }, "ours"},
     {"sensor.beam.occupied", "", 0, 1, [](const Sensor& s) { return s.beam.occupied; }, "ours"},
     {"sensor.beam.empty_margin_m", "m", 0, 10, [](const Sensor& s) { return s.beam.empty_margin_m; }, "ours"},
-    {"sensor.beam.occupied_half_width_m", "m", 0, 10, [](const Sensor& s) { return s.beam.occupied_half_width_m; }, "ours"},
+    {"sensor.beam.occupied_half_width_m", "m", 0, 10, [](const Sensor& s) { return s.beam.occupied_half_width_m; },
+     "ours"},
 };
 
 std::vector<ParamError> check_reach(const Sensor&, double cell_m);

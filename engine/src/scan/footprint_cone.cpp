@@ -28,8 +28,10 @@ void clip(double nx, double ny, double ya, double yb, double& lo, double& hi) {
 CellBox footprint_box(const Footprint& f) {
   if (f.fan) {
     const auto& q = f.fan->reading;
-    return {q.i0 + static_cast<std::int64_t>(std::floor(f.fan->x_min)) - 1, q.j0 + static_cast<std::int64_t>(std::floor(f.fan->y_min)) - 1,
-            q.i0 + static_cast<std::int64_t>(std::ceil(f.fan->x_max)) + 2, q.j0 + static_cast<std::int64_t>(std::ceil(f.fan->y_max)) + 2};
+    return {q.i0 + static_cast<std::int64_t>(std::floor(f.fan->x_min)) - 1,
+            q.j0 + static_cast<std::int64_t>(std::floor(f.fan->y_min)) - 1,
+            q.i0 + static_cast<std::int64_t>(std::ceil(f.fan->x_max)) + 2,
+            q.j0 + static_cast<std::int64_t>(std::ceil(f.fan->y_max)) + 2};
   }
   const auto& q = f.cone;
   double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
@@ -56,12 +58,13 @@ void select_micros(const kernels::ConeReading& q, double x0, double y0, MicroLis
     const double nearest = ya > 0 ? ya : yb < 0 ? -yb : 0;
     if (nearest > l) continue;
     double hi = std::sqrt(l * l - nearest * nearest), lo = -hi;
-    clip(q.ly, -q.lx, ya, yb, lo, hi);   // right of the left edge
-    clip(-q.ry, q.rx, ya, yb, lo, hi);   // left of the right edge
-    lo -= x0 + kPad, hi -= x0 - kPad;    // columns of the tile
+    clip(q.ly, -q.lx, ya, yb, lo, hi);  // right of the left edge
+    clip(-q.ry, q.rx, ya, yb, lo, hi);  // left of the right edge
+    lo -= x0 + kPad, hi -= x0 - kPad;   // columns of the tile
     if (hi < lo || hi < 0 || lo > kernels::kTileSide - 1) continue;
     const int first = static_cast<int>(std::max(lo, 0.0)) / 4, last = static_cast<int>(std::min(hi, 63.0)) / 4;
-    for (int m = first; m <= last; ++m) out.micro[static_cast<std::size_t>(out.count++)] = static_cast<std::uint8_t>(band * 16 + m);
+    for (int m = first; m <= last; ++m)
+      out.micro[static_cast<std::size_t>(out.count++)] = static_cast<std::uint8_t>(band * 16 + m);
   }
 }
 

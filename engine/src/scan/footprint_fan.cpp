@@ -12,7 +12,8 @@ namespace {
 /// atan2 to 1e-4 rad: only widens footprints.
 float rough_angle(float y, float x) {
   const float ax = std::fabs(x), ay = std::fabs(y), z = std::min(ax, ay) / std::max(std::max(ax, ay), 1e-6f), t = z * z;
-  float a = z * (0.99997726f + t * (-0.33262347f + t * (0.19354346f + t * (-0.11643287f + t * (0.05265332f - t * 0.01172120f)))));
+  float a = z * (0.99997726f +
+                 t * (-0.33262347f + t * (0.19354346f + t * (-0.11643287f + t * (0.05265332f - t * 0.01172120f)))));
   if (ax < ay) a = 1.57079633f - a;
   if (x < 0) a = 3.14159265f - a;
   return y < 0 ? -a : a;
@@ -48,8 +49,10 @@ float FanReach::farthest(float angle_rad, float half_rad) const {
   const int n = fan_->beams;
   const float t = angle_rad * fan_->beams_per_rad + fan_->half_beams, h = half_rad * fan_->beams_per_rad + 1;
   // A wide fan can meet the square from both of its ends.
-  if (angle_rad + half_rad > 3.14f || angle_rad - half_rad < -3.14f) return table_[static_cast<std::size_t>(levels_ - 1) * static_cast<std::size_t>(n)] > 0 ? fan_->far : -1;
-  const int from = std::max(0, static_cast<int>(std::floor(t - h))), to = std::min(n - 1, static_cast<int>(std::floor(t + h)));
+  if (angle_rad + half_rad > 3.14f || angle_rad - half_rad < -3.14f)
+    return table_[static_cast<std::size_t>(levels_ - 1) * static_cast<std::size_t>(n)] > 0 ? fan_->far : -1;
+  const int from = std::max(0, static_cast<int>(std::floor(t - h))),
+            to = std::min(n - 1, static_cast<int>(std::floor(t + h)));
   if (to < from) return -1;
   const int level = std::bit_width(static_cast<unsigned>(to - from + 1)) - 1;
   const float* row = table_.data() + static_cast<std::size_t>(level) * static_cast<std::size_t>(n);
@@ -63,7 +66,8 @@ void select_micros(const kernels::FanReading& q, const FanReach& reach, double x
   bool block[4][4];
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {
-      block[j][i] = reachable(q, reach, x + static_cast<float>(16 * i) + 7.5f, y + static_cast<float>(16 * j) + 7.5f, 10.7f);
+      block[j][i] =
+          reachable(q, reach, x + static_cast<float>(16 * i) + 7.5f, y + static_cast<float>(16 * j) + 7.5f, 10.7f);
     }
   }
   for (int j = 0; j < kernels::kMicrosPerSide; ++j) {

@@ -7,19 +7,40 @@
 namespace evigrid {
 
 kernels::ConeSpec cone_spec(const Sensor& s, double cell_m) {
-  return {s.model == Model::li2014 ? 1 : 0, cell_m, s.aperture_rad, s.min_range_m, s.max_range_m, s.reliability,
-          s.hughes.r_max_m, s.hughes.max_occupied, s.hughes.tolerance_m,
-          s.li.rho_e, s.li.rho_o, s.li.rho_c, s.li.rho_i, s.li.epsilon_ratio};
+  return {s.model == Model::li2014 ? 1 : 0,
+          cell_m,
+          s.aperture_rad,
+          s.min_range_m,
+          s.max_range_m,
+          s.reliability,
+          s.hughes.r_max_m,
+          s.hughes.max_occupied,
+          s.hughes.tolerance_m,
+          s.li.rho_e,
+          s.li.rho_o,
+          s.li.rho_c,
+          s.li.rho_i,
+          s.li.epsilon_ratio};
 }
 
 kernels::FanSpec fan_spec(const Sensor& s, double cell_m) {
-  return {cell_m, s.min_range_m, s.max_range_m, s.reliability, s.beams, s.first_beam_rad, s.beam_step_rad,
-          s.beam.empty, s.beam.occupied, s.beam.empty_margin_m, s.beam.occupied_half_width_m};
+  return {cell_m,
+          s.min_range_m,
+          s.max_range_m,
+          s.reliability,
+          s.beams,
+          s.first_beam_rad,
+          s.beam_step_rad,
+          s.beam.empty,
+          s.beam.occupied,
+          s.beam.empty_margin_m,
+          s.beam.occupied_half_width_m};
 }
 
 CompiledSensor::CompiledSensor(const Sensor& s, double cell_m)
-    : sensor(s), type(s.model == Model::beam ? decltype(type)(fan_spec(s, cell_m))
-                                             : decltype(type)(kernels::ConeType(cone_spec(s, cell_m)))) {}
+    : sensor(s),
+      type(s.model == Model::beam ? decltype(type)(fan_spec(s, cell_m))
+                                  : decltype(type)(kernels::ConeType(cone_spec(s, cell_m)))) {}
 
 namespace {
 
@@ -42,8 +63,8 @@ bool usable(const Pose2& p, double cell_m) {
 
 void count(Report& r, Refusal why, std::uint64_t n = 1) { r.refused[static_cast<std::size_t>(why)] += n; }
 
-void gate_fan(const Reading& reading, const CompiledSensor& c, const kernels::SensorPose& pose, std::vector<Footprint>& out,
-              Report& report) {
+void gate_fan(const Reading& reading, const CompiledSensor& c, const kernels::SensorPose& pose,
+              std::vector<Footprint>& out, Report& report) {
   const Sensor& s = c.sensor;
   std::vector<float> ranges(reading.ranges_m.begin(), reading.ranges_m.end());
   bool any = false;
