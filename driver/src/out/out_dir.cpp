@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// POSIX does the rest: rename() within a folder replaces a file in one step.
+#include "out/out_dir.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "error.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path temporary_beside(const fs::path& target) {
+  return target.parent_path() / fmt::format(".{}.tmp-{}", target.filename().string(), ::getpid());
+}
+
+[[noreturn]] void fail(const fs::path& path, const std::string& why) {
+  throw InputError(fmt::format("{}: cannot be written: {}", path.string(), why));
+}
+
+/// The bytes, or an InputError and no file.
+void write_all(const fs::path& path, const fs::path& named, std::span<const std::byte> head,
+               std::span<const std::byte> body) {
+  errno = 0;
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) fail(named, std::strerror(errno));
+  bool good = true;
+  for (const auto part : {head, body}) {  // an empty part may have no address
+    good = good && (part.empty() || std::fwrite(part.data(), 1, part.size(), file) == part.size());
+  }
+  int error = errno;
+  if (std::fclose(file) != 0 && good) {
+    good = false;
+    error = errno;
+  }
+  if (!good) {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+    fail(named, std::strerror(error));
+  }
+}
+
+std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+}  // namespace
+
+OutDir::OutDir(const std::string& path) {
+  if (path.empty()) throw InputError("-o: the output folder has no name");
+  path_ = fs::absolute(path).lexically_normal();
+  if (path_.filename().empty()) path_ = path_.parent_path();  // "out/" is "out"
+  std::vector<fs::path> missing;                              // innermost first
+  std::error_code error;
+  for (fs::path at = path_; !fs::exists(at, error) && at.has_relative_path(); at = at.parent_path())
+    missing.push_back(at);
+  try {
+    for (auto at = missing.rbegin(); at != missing.rend(); ++at) {
+      if (!fs::create_directory(*at, error) && error) fail(path, error.message());
+      made_.push_back(*at);
+    }
+    if (!fs::is_directory(path_, error)) fail(path, "it is no folder");
+    const fs::path probe = temporary_beside(path_ / "probe");
+    write_all(probe, path, {}, {});
+    fs::remove(probe, error);
+  } catch (...) {
+    for (auto at = made_.rbegin(); at != made_.rend(); ++at) fs::remove(*at, error);
+    throw;
+  }
+}
+
+OutDir::~OutDir() {
+  std::error_code ignored;
+  for (const auto& [temporary, target] : staged_) fs::remove(temporary, ignored);
+  for (auto at = made_.rbegin(); at != made_.rend(); ++at) fs::remove(*at, ignored);  // only when empty
+}
+
+void OutDir::stage(const fs::path& target, std::span<const std::byte> head, std::span<const std::byte> body) {
+  std::error_code error;
+  if (fs::is_directory(target, error)) fail(target, "a folder has that name");
+  const fs::path temporary = temporary_beside(target);
+  write_all(temporary, target, head, body);
+  staged_.emplace_back(temporary, target);
+}
+
+void OutDir::write(const std::string& name, std::string_view bytes) { stage(path_ / name, bytes_of(bytes), {}); }
+
+void OutDir::write(const std::string& name, std::span<const std::byte> head, std::span<const std::byte> body) {
+  stage(path_ / name, head, body);
+}
+
+void OutDir::write_outside(const std::string& path, std::string_view bytes) {
+  stage(fs::absolute(path), bytes_of(bytes), {});
+}
+
+void OutDir::commit() {
+  std::size_t done = 0;
+  std::error_code error;
+  for (; done < staged_.size() && !error; ++done) fs::rename(staged_[done].first, staged_[done].second, error);
+  if (error) {  // the last one failed: a part of the results is worse than none
+    const fs::path named = staged_[done - 1].second;
+    std::error_code ignored;
+    for (std::size_t i = 0; i + 1 < done; ++i) fs::remove(staged_[i].second, ignored);
+    fail(named, error.message());
+  }
+  staged_.clear();
+  made_.clear();
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  const fs::path target = fs::absolute(path);
+  const fs::path temporary = temporary_beside(target);
+  write_all(temporary, path, bytes_of(bytes), {});
+  std::error_code error;
+  fs::rename(temporary, target, error);
+  if (error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    fail(path, error.message());
+  }
+}
+
+void require_writable(const std::string& path) {
+  const fs::path target = fs::absolute(path);
+  std::error_code error;
+  if (fs::is_directory(target, error)) fail(path, "a folder has that name");
+  const fs::path probe = temporary_beside(target);
+  write_all(probe, path, {}, {});
+  fs::remove(probe, error);
+}
+
+}  // namespace evigrid::driver
