@@ -14,7 +14,7 @@ namespace {
 struct Batch {
   const Pipeline& p;
   const std::vector<Footprint>& footprints;
-  std::vector<FanReach>& reaches;  // of the fans, by footprint
+  const std::vector<FanReach>& reaches;  // of the fans, by footprint
   std::vector<TileWork>& work;
   std::vector<kernels::Stats>& stats;
 };
@@ -64,7 +64,7 @@ Report integrate(const Pipeline& p, std::span<const Scan> scans) {
   for (std::size_t i = 0; i < footprints.size(); ++i) {
     if (footprints[i].fan) reaches[i].build(*footprints[i].fan);
   }
-  std::vector<TileWork> work = bin(footprints, p.store);
+  std::vector<TileWork> work = bin(footprints, reaches, p.store);
   std::vector<kernels::Stats> stats(work.size());
   Batch batch{p, footprints, reaches, work, stats};
   p.executor.run(

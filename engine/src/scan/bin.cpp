@@ -4,19 +4,16 @@
 #include <algorithm>
 #include <map>
 
-#include "scan/footprint.hpp"
-
 namespace evigrid {
 
-std::vector<TileWork> bin(const std::vector<Footprint>& footprints, TileStore& store) {
+std::vector<TileWork> bin(const std::vector<Footprint>& footprints, const std::vector<FanReach>& reaches,
+                          TileStore& store) {
   std::map<TileIndex, std::vector<std::uint32_t>> lists;
   MicroList micros;
-  FanReach reach;
   for (std::uint32_t i = 0; i < footprints.size(); ++i) {
     const Footprint& f = footprints[i];
     const CellBox box = footprint_box(f);
     const TileIndex first = tile_of(box.x0, box.y0), last = tile_of(box.x1, box.y1);
-    if (f.fan) reach.build(*f.fan);
     for (std::int64_t y = first.y; y <= last.y; ++y) {
       for (std::int64_t x = first.x; x <= last.x; ++x) {
         const TileIndex at{y, x};
@@ -25,7 +22,7 @@ std::vector<TileWork> bin(const std::vector<Footprint>& footprints, TileStore& s
           // A new tile costs memory: look closer before making one.
           if (f.fan) {
             const auto& q = f.fan->reading;
-            select_micros(q, reach, offset(x, q.i0, q.fx), offset(y, q.j0, q.fy), micros);
+            select_micros(q, reaches[i], offset(x, q.i0, q.fx), offset(y, q.j0, q.fy), micros);
           } else {
             select_micros(f.cone, offset(x, f.cone.i0, f.cone.fx), offset(y, f.cone.j0, f.cone.fy), micros);
           }
