@@ -13,16 +13,18 @@ THIRD = {
     "tbb": re.compile(r"^(tbb|oneapi/tbb)/"), "omp": re.compile(r"^omp\.h$"), "eigen": re.compile(r"^Eigen/"),
     "embree": re.compile(r"^embree[34]/"), "highway": re.compile(r"^hwy/"), "toml": re.compile(r"^toml\+\+/"),
     "cli": re.compile(r"^CLI/"), "json": re.compile(r"^nlohmann/"), "png": re.compile(r"^png\.h$"),
-    "zlib": re.compile(r"^zlib\.h$"), "fmt": re.compile(r"^fmt/"),
+    "zlib": re.compile(r"^zlib\.h$"), "fmt": re.compile(r"^fmt/"), "zstd": re.compile(r"^zstd\.h$"),
+    "leptonica": re.compile(r"^(leptonica/)?allheaders\.h$"), "yaml": re.compile(r"^yaml-cpp/"),
+    "tinyobj": re.compile(r"^tiny_obj_loader\.h$"),
 }
 # Room: folders it may include from (by include path prefix), third parties it may include.
 ROOMS = {
     "kernels": (("kernels/",), {"highway"}),
-    "engine": (("evigrid/", "kernels/row/", "scan/", "grid/", "exec/", "params/", "io/", "integrate.hpp"), {"tbb", "omp"}),
+    "engine": (("evigrid/", "kernels/row/", "scan/", "grid/", "exec/", "params/", "io/", "integrate.hpp"), {"tbb", "omp", "zstd"}),
     "engine/include": (("evigrid/",), set()),
     "raycast": (("evigrid/raycast/", "@raycast"), {"embree", "tbb", "eigen"}),
     "raycast/include": (("evigrid/raycast/",), set()),
-    "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt"}),
+    "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt", "leptonica", "yaml", "tinyobj", "tbb"}),
     "scenes/include": (("evigrid/scenes/", "evigrid/raycast/"), set()),
     "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree"}),
 }

@@ -55,14 +55,14 @@ struct Scene::Impl {
   SurfaceIndex index;
 };
 
-Scene::Scene(const World& world) : impl_(new Impl{SurfaceIndex(take_apart(world))}) {}
+Scene::Scene(const World& world, std::span<const World>) : impl_(new Impl{SurfaceIndex(take_apart(world))}) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 std::size_t Scene::surface_count() const noexcept { return impl_->index.size(); }
 
-Echo Scene::cast_cone(const ConeQuery& q) const {
+Echo Scene::cast_cone(const ConeQuery& q, Placements) const {
   check(q);
   const Vec2 apex{q.x_m, q.y_m};
   const Wedge wedge = make_wedge(q.yaw_rad, q.aperture_rad);
@@ -83,7 +83,7 @@ Echo Scene::cast_cone(const ConeQuery& q) const {
   return echo_at(nearest_visible_echo(around, wedge, reach_m), q);
 }
 
-double Scene::ray_range(double x_m, double y_m, double angle_rad, double max_range_m) const {
+double Scene::ray_range(double x_m, double y_m, double angle_rad, double max_range_m, Placements) const {
   check_ray(x_m, y_m, angle_rad, max_range_m);
   return impl_->index.first_hit({x_m, y_m}, {std::cos(angle_rad), std::sin(angle_rad)}, max_range_m);
 }

@@ -13,6 +13,14 @@ struct ConeQuery {
   double max_range_m = 0;   ///< an echo from farther is not heard
 };
 
+/// One revolution or sweep of a laser: beam i looks to yaw_rad + first_rad + i·step_rad.
+struct FanQuery {
+  double x_m = 0, y_m = 0, yaw_rad = 0;
+  double first_rad = 0, step_rad = 0;
+  int beams = 0;
+  double max_range_m = 0;
+};
+
 enum class EchoStatus {
   ok,        ///< range_m is the distance of the nearest echo
   none,      ///< nothing within max_range_m that is visible and gives an echo

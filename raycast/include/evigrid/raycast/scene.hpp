@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <memory>
+#include <span>
 
 #include "evigrid/raycast/cone.hpp"
 #include "evigrid/raycast/world.hpp"
@@ -12,21 +13,52 @@ namespace evigrid::raycast {
 
 class Scene {
  public:
-  /// Throws std::invalid_argument for a non-finite coordinate, a negative size or a critical incidence outside
-  /// [0, π/2]; std::runtime_error when the ray caster cannot be set up.
-  explicit Scene(const World& world);
+  /// `movers`: shapes of moving objects, each in a frame of its own; where they stand is said at every cast, so that
+  /// nothing is rebuilt when they move. Throws std::invalid_argument for a non-finite coordinate, a negative size, a
+  /// critical incidence outside [0, π/2] or an absorption outside [0, 1); std::runtime_error when the ray caster cannot
+  /// be set up.
+  explicit Scene(const World& world, std::span<const World> movers = {});
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
+  /// One Placement per mover; an empty span leaves all movers out. Any other count throws std::invalid_argument.
+  using Placements = std::span<const Placement>;
+
   /// The nearest surface point in the closed cone that gives an echo and is not hidden: exact to about 1e-9 m.
   /// A sensor that stands on a surface sees it at distance 0. Throws std::invalid_argument for a bad query.
-  [[nodiscard]] Echo cast_cone(const ConeQuery& query) const;
+  [[nodiscard]] Echo cast_cone(const ConeQuery& query, Placements movers = {}) const;
 
-  /// Distance to the first surface along one ray, whatever its incidence (laser); +∞ when farther than max_range_m.
-  [[nodiscard]] double ray_range(double x_m, double y_m, double angle_rad, double max_range_m) const;
+  /// The same for many cones (thousands of poses): echoes[i] answers queries[i]; equal to one call each, bit for bit.
+  /// `threads`: 0 for as many as the machine has, on a TBB arena of its own.
+  void cast_cones(std::span<const ConeQuery> queries, std::span<Echo> echoes, Placements movers = {},
+                  int threads = 1) const;
 
-  /// Straight pieces and circles after taking boxes and polygons apart.
+  /// The echo of cast_cone, or a longer path if it is shorter than that: sound thrown away by a surface beyond its
+  /// critical incidence is followed to the next surface; when that one sends it back, the sonar hears half the length
+  /// of the whole way: too long a reading (Li et al. 2014, false reflection). `rays` coherent rays sample the cone.
+  [[nodiscard]] Echo cast_cone_second_bounce(const ConeQuery& query, Placements movers = {}, int rays = 32) const;
+
+  /// Cross-talk: `speaker` and `listener` ping at the same moment, and the listener hears the speaker's sound first:
+  /// half the shortest way speaker → surface → listener with both cones looking at the point and nothing in between,
+  /// among `rays` directions of the listener's cone. EchoStatus::none when there is none.
+  [[nodiscard]] Echo cross_talk(const ConeQuery& speaker, const ConeQuery& listener, Placements movers = {},
+                                int rays = 32) const;
+
+  /// Distance to the first surface along one ray, whatever its incidence (laser); +∞ when farther than max_range_m, or
+  /// when the surface absorbs too much.
+  [[nodiscard]] double ray_range(double x_m, double y_m, double angle_rad, double max_range_m,
+                                 Placements movers = {}) const;
+
+  /// Lasers: the first surface along each ray of a fan, in packets of 16 coherent rays. ranges_m has query.beams
+  /// elements; equals ray_range of the same directions to 1e-9 m.
+  void cast_fan(const FanQuery& query, std::span<double> ranges_m, Placements movers = {}) const;
+
+  /// Many fans, one after the other in ranges_m (total of their beams). `threads` as for cast_cones.
+  void cast_fans(std::span<const FanQuery> queries, std::span<double> ranges_m, Placements movers = {},
+                 int threads = 1) const;
+
+  /// Straight pieces and circles after taking boxes and polygons apart, movers included.
   [[nodiscard]] std::size_t surface_count() const noexcept;
 
  private:

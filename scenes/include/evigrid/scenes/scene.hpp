@@ -34,6 +34,24 @@ struct SonarSpec {
   double min_range_m = 0, max_range_m = 0;
   double reliability = 1;     ///< in (0, 1]
   raycast::RangeNoise noise;  ///< of the simulated readings
+  int group = 0;              ///< sonars of one group ping at the same moment: cross-talk happens within it
+};
+
+/// A laser scanner: beam i looks to first_rad + i·step_rad in its own frame.
+struct LaserSpec {
+  Pose T_robot_sensor;
+  std::string model = "beam";
+  double first_rad = 0, step_rad = 0;
+  int beams = 0;
+  double min_range_m = 0, max_range_m = 0;
+  double reliability = 1;
+  raycast::RangeNoise noise;
+};
+
+/// What the simulated sonars suffer from beside noise.
+struct EchoSpec {
+  bool second_bounce = false;  ///< too long readings by way of a specular surface
+  bool cross_talk = false;     ///< within a firing group
 };
 
 /// Waypoints, driven one after the other: turn on the spot towards the next one, then straight to it.
@@ -45,11 +63,33 @@ struct TrajectorySpec {
   std::uint64_t seed = 0;
 };
 
+/// Wheel odometry of a differential drive: what the robot believes to have driven. Each wheel's way is scaled by its
+/// drift and by noise; standard deviations grow with the root of the way. Counter-based, repeatable from the seed.
+struct OdometrySpec {
+  bool used = false;             ///< else the robot knows its true pose
+  double track_m = 0.3;          ///< distance of the wheels
+  double drift_left = 0, drift_right = 0;  ///< relative error of each wheel's way, constant over the run
+  double noise_m_per_sqrt_m = 0;           ///< standard deviation of each wheel's way over one metre
+};
+
+/// Something that moves while the robot measures: a shape in its own frame, driven along waypoints of its own.
+struct MoverSpec {
+  std::string name;
+  raycast::World shape;
+  TrajectorySpec trajectory;  ///< period and seed are the robot's
+  bool loop = false;          ///< starts again at the end; else it stays there
+};
+
 struct Scene {
   std::string name;
   MapSpec map;
   raycast::World world;
+  std::vector<MoverSpec> movers;
+  double radius_m = 0.2;          ///< of the robot
   std::vector<SonarSpec> sonars;  ///< a ring is expanded; index = sensor number
+  std::vector<LaserSpec> lasers;  ///< numbered after the sonars
+  EchoSpec echo;
+  OdometrySpec odometry;
   TrajectorySpec trajectory;
 };
 
