@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// evigrid info: what this program is made of and what of it runs here. The first thing to put into a bug report.
+// evigrid info: what this program is made of and what of it runs here, the first thing to put into a bug report; and
+// evigrid info MAP: what a saved map holds.
 #include <fmt/format.h>
 #include <png.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -12,11 +14,13 @@
 #include "evigrid/evigrid.hpp"
 #include "options.hpp"
 #include "out/out_dir.hpp"
+#include "saved_map.hpp"
 
 namespace evigrid::driver {
 namespace {
 
 using Json = nlohmann::ordered_json;
+std::string text_of(const Json& value);
 
 Json facts() {
   Json kernels = Json::array();
@@ -49,6 +53,91 @@ Json facts() {
   return out;
 }
 
+Json sensor_facts(const Sensor& s) {
+  Json out = {
+      {"model", name(s.model)},
+      {"mount", {{"x_m", s.T_robot_sensor.x_m}, {"y_m", s.T_robot_sensor.y_m}, {"yaw_rad", s.T_robot_sensor.yaw_rad}}},
+      {"min_range_m", s.min_range_m},
+      {"max_range_m", s.max_range_m},
+      {"no_return_m", s.no_return_m},
+      {"reliability", s.reliability}};
+  switch (s.model) {
+    case Model::beam:
+      out["beams"] = s.beams;
+      out["first_beam_rad"] = s.first_beam_rad;
+      out["beam_step_rad"] = s.beam_step_rad;
+      out["clear_no_return"] = s.clear_no_return;
+      out["empty"] = s.beam.empty;
+      out["occupied"] = s.beam.occupied;
+      out["empty_margin_m"] = s.beam.empty_margin_m;
+      out["occupied_half_width_m"] = s.beam.occupied_half_width_m;
+      break;
+    case Model::hughes1992:
+      out["aperture_rad"] = s.aperture_rad;
+      out["r_max_m"] = s.hughes.r_max_m;
+      out["max_occupied"] = s.hughes.max_occupied;
+      out["tolerance_m"] = s.hughes.tolerance_m;
+      break;
+    case Model::li2014:
+      out["aperture_rad"] = s.aperture_rad;
+      out["rho_e"] = s.li.rho_e;
+      out["rho_o"] = s.li.rho_o;
+      out["rho_c"] = s.li.rho_c;
+      out["rho_i"] = s.li.rho_i;
+      out["epsilon_ratio"] = s.li.epsilon_ratio;
+      break;
+  }
+  return out;
+}
+
+Json map_facts(const std::string& path) {
+  const SavedMap saved = open_saved_map(path);
+  const MapFileInfo& info = saved.info;
+  const CellRect box = saved.map.bounds();
+  const double c = info.params.cell_m;
+  Json sensors = Json::array();
+  for (const Sensor& s : info.sensors) sensors.push_back(sensor_facts(s));
+  Json out;
+  out["file"] = saved.path;
+  out["format_version"] = info.format_version;
+  out["maths_version"] = info.maths_version;
+  out["rule"] = name(info.params.rule);
+  out["cell_m"] = c;
+  out["size_cells"] = {box.width, box.height};
+  out["origin_cells"] = {box.x, box.y};
+  out["extent_m"] = {{"x", {static_cast<double>(box.x) * c, static_cast<double>(box.x + box.width) * c}},
+                     {"y", {static_cast<double>(box.y) * c, static_cast<double>(box.y + box.height) * c}}};
+  out["layers"] = info.planes;
+  out["tiles"] = info.tiles;
+  out["memory_bytes"] = info.memory_bytes;
+  out["file_bytes"] = info.file_bytes;
+  out["kernel"] = name(info.params.kernel);
+  out["memory_cap_bytes"] = info.params.memory_cap_bytes;
+  out["last_stamp_ns"] = info.last_stamp_ns ? Json(*info.last_stamp_ns) : Json();
+  out["map_hash"] = fmt::format("{:016x}", saved.map.hash());
+  out["sensors"] = sensors;
+  return out;
+}
+
+/// A ring of sonars differs in its mounts alone: one line for the first of each kind, and how many there are.
+void print_map(const Json& all) {
+  for (const auto& [key, value] : all.items()) {
+    if (key != "sensors") std::cout << fmt::format("{:<18}{}\n", key, text_of(value));
+  }
+  std::vector<std::pair<Json, int>> kinds;
+  for (Json sensor : all["sensors"]) {
+    sensor.erase("mount");
+    const auto same = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.first == sensor; });
+    if (same == kinds.end()) {
+      kinds.emplace_back(sensor, 1);
+    } else {
+      ++same->second;
+    }
+  }
+  for (const auto& [sensor, count] : kinds)
+    std::cout << fmt::format("{:<18}{} x {}\n", "sensors", count, text_of(sensor));
+}
+
 std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_structured()) return value.dump();
@@ -62,17 +151,26 @@ std::string text_of(const Json& value) {
 }  // namespace
 
 void add_info(CLI::App& app) {
-  auto json = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("info", "version, build, kernels, threads, packages");
-  command->add_option("--json", *json, "write the facts to this file as JSON; - for standard output");
-  command->footer("Examples:\n  evigrid info\n  evigrid info --json -\n");
-  command->callback([json] {
-    const Json all = facts();
-    if (*json == "-") {
-      std::cout << all.dump(2) << '\n';
+  struct Args {
+    std::string map, json;
+  };
+  auto args = std::make_shared<Args>();
+  CLI::App* command =
+      app.add_subcommand("info", "version, build, kernels, threads, packages; or what a saved map holds");
+  command->add_option("MAP", args->map, "map file (.evigrid), or the folder that map or run wrote");
+  command->add_option("--json", args->json, "write the facts to this file as JSON; - for standard output");
+  command->footer(
+      "Of a map: parameters, rule, extent, layers, sensors, hash. It is read whole and every checksum is proved.\n\n"
+      "Examples:\n  evigrid info\n  evigrid info out\n  evigrid info out/map.evigrid --json -\n");
+  command->callback([args] {
+    const Json all = args->map.empty() ? facts() : map_facts(args->map);
+    const std::string bytes = all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // paths hold any bytes
+    if (args->json == "-") {
+      std::cout << bytes;
       return;
     }
-    if (!json->empty()) write_file(*json, all.dump(2) + "\n");
+    if (!args->json.empty()) write_file(args->json, bytes);
+    if (!args->map.empty()) return print_map(all);
     for (const auto& [key, value] : all.items()) std::cout << fmt::format("{:<18}{}\n", key, text_of(value));
   });
 }

@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 
 #include "commands.hpp"
+#include "error.hpp"
 #include "log/readers.hpp"
+#include "log/select.hpp"
+#include "log/summary.hpp"
 #include "mapping.hpp"
 
 namespace evigrid::driver {
@@ -13,17 +16,41 @@ namespace {
 struct Args {
   std::vector<std::string> logs;
   std::string format = "auto";
+  std::string scans;                 ///< empty: all
+  std::vector<std::string> sensors;  ///< kinds or names; empty: all
   MappingOptions mapping;
 };
+
+/// A map needs poses: a log without any is mapped only where the user says that the robot stood still.
+void require_poses(const Log& log, const Args& args) {
+  if (log.poses == Poses::one_dimension) {
+    throw InputError(
+        fmt::format("{}: format {} is a drive along a line with true ranges, not a map's log: see "
+                    "`evigrid calibrate`",
+                    args.logs.front(), log.format));
+  }
+  if (log.poses == Poses::none && args.scans.empty()) {
+    throw InputError(
+        fmt::format("{}: format {} has no poses: choose what to map with --scans N or A:B ({} scans); the "
+                    "robot then stands at the origin",
+                    args.logs.front(), log.format, log.scans.size()));
+  }
+}
 
 void map_log(const Args& args) {
   const auto start = Clock::now();
   const Plan plan = make_plan(args.mapping);
   OutDir out(args.mapping.out_dir);
   if (!args.mapping.json.empty() && args.mapping.json != "-") require_writable(args.mapping.json);
-  const Log log = read_log(args.logs, args.format);
+  Log log = read_log(args.logs, args.format);
+  require_poses(log, args);
+  if (!args.scans.empty()) keep_scans(log, args.scans);
+  if (!args.sensors.empty()) keep_sensors(log, args.sensors);
   const Fused fused = fuse(log, args.mapping, plan);
-  write_results(out, log, fused, args.mapping, start, {{"input", args.logs}});
+  nlohmann::ordered_json origin = log_origin(log);
+  origin["input"] = args.logs;
+  if (!args.scans.empty()) origin["scans_chosen"] = args.scans;
+  write_results(out, log, fused, args.mapping, start, origin);
 }
 
 }  // namespace
@@ -31,23 +58,24 @@ void map_log(const Args& args) {
 void add_map(CLI::App& app) {
   auto args = std::make_shared<Args>();
   CLI::App* command = app.add_subcommand("map", "build a map from a recorded log");
-  command->add_option("LOG", args->logs, "CARMEN log (plain or .gz), or the folder or files of an 8-sonar ring")
-      ->required();
+  command->add_option("LOG", args->logs, "a log: its file, files or folder, plain or .gz")->required();
   command->add_option("--format", args->format, fmt::format("{}", fmt::join(log_formats(), ", ")))
       ->capture_default_str();
+  command->add_option("--scans", args->scans, "map these alone: N, or A:B up to but not including B; from 0");
+  command->add_option("--sensors", args->sensors, "map these kinds or names of sensors alone, e.g. sonar")
+      ->delimiter(',');
   add_mapping_options(*command, args->mapping);
   command->footer(
-      "Writes into DIR: map.png; map.yaml and map.pgm (ROS map_server); masses.npy (float32, 4 x height x width: e, o, "
-      "u,\n"
-      "running sum of conflict; row 0 is the smallest y); report.json (what was used, what was refused and why).\n\n"
-      "CARMEN: FLASER, RLASER, ROBOTLASER1 and ROBOTLASER2 are mapped; other records are counted. Values within 5 cm "
-      "of\n"
-      "the log's largest range mean \"no return\" if there are at least two and they lie beyond 20 m; ranges above "
-      "1000 m\n"
-      "are refused as absurd. Ring: poses.txt and measurement.txt, matched by time stamp; 5110 mm is no echo.\n\n"
+      describe_outputs() +
+      "Formats (found by content; --format names one):\n" + describe_formats() +
+      "\nCARMEN: values within 5 cm of the log's largest range mean \"no return\" if there are at least two and they "
+      "lie\nbeyond 20 m; ranges above 1000 m are refused as absurd. Ring: matched by time stamp; 5110 mm is no echo.\n"
+      "lego, bigwheelbot: poses by dead reckoning from the origin, they drift. uci24 has no poses: give --scans.\n\n"
       "Examples:\n"
       "  evigrid map intel.log.gz -o out --cell 0.05 --max-range 10\n"
       "  evigrid map ring/ -o out --rule pcr5 --model li2014\n"
+      "  evigrid map Garden.txt -o out --sensors sonar --max-range 2.5\n"
+      "  evigrid map sensor_readings_24.data -o out --scans 120\n"
       "  evigrid map intel.log.gz -o out --threads 2 --executor openmp --kernel avx2 --json -\n");
   command->callback([args] { map_log(*args); });
 }

@@ -7,6 +7,8 @@
 
 #include "error.hpp"
 #include "mapping.hpp"
+#include "out/layers.hpp"
+#include "picture/look.hpp"
 #include "progress.hpp"
 
 namespace evigrid::driver {
@@ -32,36 +34,50 @@ Plan make_plan(const MappingOptions& o) {
   if (o.cell_m) plan.params.cell_m = *o.cell_m;
   if (const auto errors = check(plan.params); !errors.empty()) throw InputError(listed(errors));
   if (o.max_image_mb <= 0) throw InputError(fmt::format("--max-image-mb: {} is not above 0", o.max_image_mb));
+  parse_looks("--layers", o.layers);
+  parse_pgm_mode(o.pgm_mode);
   plan.executor = parse_executor(o.executor, o.threads);
   return plan;
 }
 
-Sensor configured(const Sensor& from_log, const MappingOptions& o) {
-  Sensor s = from_log;
-  const bool fan = s.beams > 1;
-  if (!o.model.empty()) s.model = parse_model(o.model);
-  if (fan != (s.model == Model::beam)) {
-    throw InputError(fmt::format("--model: {} is for {}, this input holds {}", name(s.model),
-                                 s.model == Model::beam ? "laser fans" : "sonar cones",
-                                 fan ? "laser fans" : "sonar cones"));
+Sensor configured(const LogSensor& from_log, const MappingOptions& o, bool mixed) {
+  Sensor s = from_log.sensor;
+  const bool fan = s.model == Model::beam;
+  if (!o.model.empty()) {
+    const Model wanted = parse_model(o.model);
+    const bool fits = (wanted == Model::beam) == fan;
+    if (!fits && !mixed) {
+      throw InputError(fmt::format("--model: {} is for {}, this input holds {}", name(wanted),
+                                   wanted == Model::beam ? "laser fans" : "sonar cones",
+                                   fan ? "laser fans" : "sonar cones"));
+    }
+    if (fits) s.model = wanted;  // of lasers and sonars together, those of its kind are meant
   }
   if (o.max_range_m) s.max_range_m = *o.max_range_m;
   if (fan) {  // beyond what the scanner can tell from "no return" there is nothing to clear
     s.max_range_m = std::min(s.max_range_m, s.no_return_m);
     s.clear_no_return = o.clear_no_return;
-  } else if (o.clear_no_return) {
+  } else if (o.clear_no_return && !mixed) {
     throw InputError(
         "--clear-no-return: is for lasers; a sonar that hears no echo does not show that its cone is empty");
   }
-  s.reliability = o.reliability.value_or(fan ? 1.0 : s.reliability < 1 ? s.reliability : 0.9);
+  const double own = from_log.stated || s.reliability < 1 ? s.reliability : fan ? 1.0 : 0.9;
+  s.reliability = o.reliability.value_or(own);
   if (const auto errors = check(s); !errors.empty()) throw InputError(listed(errors));
   return s;
+}
+
+bool holds_both_kinds(const Log& log) {
+  const auto fan = [](const LogSensor& s) { return s.sensor.model == Model::beam; };
+  return std::any_of(log.sensors.begin(), log.sensors.end(), fan) &&
+         !std::all_of(log.sensors.begin(), log.sensors.end(), fan);
 }
 
 Fused fuse(const Log& log, const MappingOptions& options, Plan plan) {
   if (!options.cell_m && !log.fans()) plan.params.cell_m = 0.1;
   std::vector<Sensor> sensors;
-  for (const LogSensor& s : log.sensors) sensors.push_back(configured(s.sensor, options));
+  const bool mixed = holds_both_kinds(log);
+  for (const LogSensor& s : log.sensors) sensors.push_back(configured(s, options, mixed));
 
   Fused out{Map(plan.params, plan.executor), {}, 0, {}, plan.executor};
   std::vector<SensorId> ids;

@@ -32,12 +32,14 @@ struct Fused {
   std::shared_ptr<Executor> executor;
 };
 
-/// The sensor as the map will use it: the log's geometry with the user's model, range and reliability.
-Sensor configured(const Sensor& from_log, const MappingOptions& options);
+/// The sensor as the map will use it: the log's geometry with the user's model, range and reliability. `mixed`: the log
+/// has lasers and sonars, and a model is meant for those that it fits.
+Sensor configured(const LogSensor& from_log, const MappingOptions& options, bool mixed);
+bool holds_both_kinds(const Log& log);
 
 Fused fuse(const Log& log, const MappingOptions& options, Plan plan);
 
-/// report.json, masses.npy, map.pgm, map.yaml, map.png: staged in `out` and committed together. `extra` is merged in.
+/// report.json, masses.npy, map.pgm, map.yaml, map.png, map.evigrid and what the options add: staged in `out` and committed together. `extra` is merged in.
 void write_results(OutDir& out, const Log& log, const Fused& fused, const MappingOptions& options,
                    Clock::time_point start, const nlohmann::ordered_json& extra);
 

@@ -23,9 +23,14 @@ struct MappingOptions {
   std::string kernel = "auto";
   std::string json;  ///< empty: only DIR/report.json
   int max_image_mb = 2048;
+  std::string layers;                ///< looks to draw besides map.png; "all"
+  std::string pgm_mode = "trinary";  ///< of map.pgm
+  bool costmap = false;
 };
 
 void add_mapping_options(CLI::App& command, MappingOptions& options);
+/// What map and run write into DIR, for their --help.
+std::string describe_outputs();
 
 /// Each throws InputError naming the option, the value and the known names.
 Rule parse_rule(const std::string& name);

@@ -34,9 +34,13 @@ int run_program(int argc, const char* const* argv) {
         "Every command has --help with examples.\nExit codes: 0 success, 2 bad input or usage, 1 internal error.");
     add_map(app);
     add_run(app);
+    add_log(app);
+    add_calibrate(app);
     add_cast(app);
+    add_compare(app);
     add_combine(app);
     add_model(app);
+    add_show(app);
     add_info(app);
     require_known_command(app, argc > 1 ? argv[1] : "");
     try {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "error.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "evigrid/scenes/simulate.hpp"
@@ -14,48 +16,113 @@
 namespace evigrid::driver {
 namespace {
 
+constexpr std::size_t kBatch = 512;                          // steps a call: threads stay busy, progress stays smooth
+constexpr std::size_t kMostBytes = std::size_t{4} << 30;  // of one run's readings
+
 Pose2 to_engine(const scenes::Pose& p) { return {p.x_m, p.y_m, p.yaw_rad}; }
 
-}  // namespace
+template <class Spec>
+Sensor common(const Spec& spec) {
+  Sensor s;
+  s.model = parse_model(spec.model);
+  s.T_robot_sensor = to_engine(spec.T_robot_sensor);
+  s.min_range_m = spec.min_range_m;
+  s.max_range_m = spec.max_range_m;
+  s.reliability = spec.reliability;
+  return s;
+}
 
-SceneInput open_scene(const std::string& path) {
-  try {
-    if (path.empty())
-      return {"(embedded scene)", scenes::parse_scene(scenes::default_scene_text(), "(embedded scene)")};
-    return {path, scenes::load_scene(path)};
-  } catch (const scenes::SceneError& error) {
-    throw InputError(error.what());
+void declare_sensors(const scenes::Scene& scene, Log& log) {
+  for (const scenes::SonarSpec& sonar : scene.sonars) {
+    Sensor s = common(sonar);
+    if (s.model == Model::beam) throw InputError("robot.sonar.model: beam is for lasers");
+    s.aperture_rad = sonar.aperture_rad;
+    log.sensors.push_back({"sonar", s, {}, true});
+  }
+  for (const scenes::LaserSpec& laser : scene.lasers) {
+    Sensor s = common(laser);
+    if (s.model != Model::beam) throw InputError(fmt::format("robot.laser.model: {} is for sonars", laser.model));
+    s.beams = laser.beams;
+    s.first_beam_rad = laser.first_rad;
+    s.beam_step_rad = laser.step_rad;
+    log.sensors.push_back({"laser", s, {}, true});
   }
 }
 
-Simulated simulate(const scenes::Scene& scene, bool no_noise) {
+void require_memory(const scenes::Scene& scene, std::size_t steps) {
+  std::size_t beams = scene.sonars.size();
+  for (const scenes::LaserSpec& laser : scene.lasers) beams += static_cast<std::size_t>(laser.beams);
+  const std::size_t bytes_a_step = beams * sizeof(float) + scene.sonars.size() * sizeof(LogReading) + sizeof(LogScan);
+  if (steps > kMostBytes / bytes_a_step) {
+    throw InputError(fmt::format("the run has {} steps of {} ranges each: more than {} GiB; a longer period_s, or fewer "
+                                 "beams, help",
+                                 steps, beams, kMostBytes >> 30));
+  }
+}
+
+void append(Log& log, std::size_t sensor, const float* first, std::size_t count) {
+  log.readings.push_back({sensor, log.ranges_m.size(), count});
+  log.ranges_m.insert(log.ranges_m.end(), first, first + count);
+}
+
+}  // namespace
+
+std::string embedded_scene_names() {
+  std::string names;
+  for (const scenes::Embedded& one : scenes::embedded_scenes()) names.append(names.empty() ? "" : ", ").append(one.name);
+  return names;
+}
+
+SceneInput open_scene(const std::string& name_or_path) {
+  try {
+    if (name_or_path.empty())
+      return {"(embedded scene)", scenes::parse_scene(scenes::default_scene_text(), "(embedded scene)")};
+    const std::string_view text = scenes::find_embedded(scenes::embedded_scenes(), name_or_path);
+    if (!text.empty()) {
+      const std::string name = "(embedded scene " + name_or_path + ")";
+      return {name, scenes::parse_scene(text, name)};
+    }
+    return {name_or_path, scenes::load_scene(name_or_path)};
+  } catch (const scenes::SceneError& error) {
+    // Neither a path nor a file's ending: an embedded scene was meant.
+    const bool a_name = name_or_path.find_first_of("./\\") == std::string::npos;
+    throw InputError(a_name && !name_or_path.empty() &&
+                             scenes::find_embedded(scenes::embedded_scenes(), name_or_path).empty()
+                         ? fmt::format("{}; embedded scenes: {}", error.what(), embedded_scene_names())
+                         : error.what());
+  }
+}
+
+Simulated simulate(const scenes::Scene& scene, const CastOptions& options) {
   const auto start = Clock::now();
   Simulated out;
   out.log.format = "scene";
   scenes::Scene copy = scene;
-  for (scenes::SonarSpec& sonar : copy.sonars) {
-    if (no_noise) sonar.noise = {};
-    Sensor s;
-    s.model = parse_model(sonar.model);
-    s.T_robot_sensor = to_engine(sonar.T_robot_sensor);
-    s.aperture_rad = sonar.aperture_rad;
-    s.min_range_m = sonar.min_range_m;
-    s.max_range_m = sonar.max_range_m;
-    s.reliability = sonar.reliability;
-    out.log.sensors.push_back({"sonar", s});
+  if (options.ideal) {
+    for (scenes::SonarSpec& sonar : copy.sonars) sonar.noise = {};
+    for (scenes::LaserSpec& laser : copy.lasers) laser.noise = {};
+    copy.echo = {};
   }
-  const raycast::Scene caster(copy.world);
+  declare_sensors(copy, out.log);
+  const raycast::Scene caster = scenes::make_caster(copy);
   const scenes::Simulation simulation(copy, caster);
+  require_memory(copy, simulation.steps());
   Progress progress("casting");
-  for (std::size_t i = 0; i < simulation.steps(); ++i) {
-    const scenes::Step step = simulation.step(i);
-    out.log.scans.push_back(
-        {step.stamp_ns, to_engine(step.T_map_robot), out.log.readings.size(), step.ranges_m.size()});
-    for (std::size_t k = 0; k < step.ranges_m.size(); ++k) {
-      out.log.readings.push_back({k, out.log.ranges_m.size(), 1});
-      out.log.ranges_m.push_back(step.ranges_m[k]);
+  for (std::size_t at = 0; at < simulation.steps(); at += kBatch) {
+    const std::size_t count = std::min(kBatch, simulation.steps() - at);
+    for (const scenes::Step& step : simulation.run(at, count, options.threads)) {
+      out.T_map_robot.push_back(to_engine(step.T_map_robot));
+      out.log.scans.push_back({step.stamp_ns, to_engine(step.T_odom_robot), out.log.readings.size(),
+                               copy.sonars.size() + copy.lasers.size()});
+      std::size_t sensor = 0, beam = 0;
+      for (const float& range_m : step.ranges_m) append(out.log, sensor++, &range_m, 1);
+      for (const scenes::LaserSpec& laser : copy.lasers) {
+        const auto beams = static_cast<std::size_t>(laser.beams);
+        append(out.log, sensor++, &step.beams_m[beam], beams);
+        beam += beams;
+      }
     }
-    progress.show(i + 1, simulation.steps());
+    progress.show(at + count, simulation.steps());
   }
   out.cast_s = seconds_since(start);
   return out;

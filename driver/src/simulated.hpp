@@ -2,6 +2,7 @@
 // A scene driven and cast: the same Log that a recording gives, so `run` maps it the same way.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "evigrid/scenes/scene.hpp"
 #include "log/log.hpp"
@@ -13,15 +14,24 @@ struct SceneInput {
   scenes::Scene scene;
 };
 
-/// An empty path means the embedded scene. Throws InputError naming file, line and field.
-SceneInput open_scene(const std::string& path);
+/// The name of an embedded scene, or a file; empty: the default scene. Throws InputError naming file, line and field.
+SceneInput open_scene(const std::string& name_or_path);
 
-struct Simulated {
-  Log log;
-  double cast_s = 0;  ///< building the caster and casting every reading
+/// "default, hughes1992, …"
+std::string embedded_scene_names();
+
+struct CastOptions {
+  int threads = 0;     ///< 0: as many as the machine has; the readings are the same
+  bool ideal = false;  ///< no noise, no second bounce, no cross-talk
 };
 
-/// @param no_noise casts the true ranges instead, for `cast --truth`.
-Simulated simulate(const scenes::Scene& scene, bool no_noise = false);
+struct Simulated {
+  Log log;                         ///< with the poses that the robot believes in
+  std::vector<Pose2> T_map_robot;  ///< true pose of every scan
+  double cast_s = 0;               ///< building the caster and casting every reading
+};
+
+/// Throws InputError when the readings would not fit into a sensible amount of memory.
+Simulated simulate(const scenes::Scene& scene, const CastOptions& options = {});
 
 }  // namespace evigrid::driver

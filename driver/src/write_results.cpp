@@ -9,8 +9,10 @@
 
 #include "error.hpp"
 #include "mapping.hpp"
+#include "out/costmap.hpp"
 #include "out/layers.hpp"
 #include "picture/map_picture.hpp"
+#include "saved_map.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -96,12 +98,23 @@ void write_results(OutDir& out, const Log& log, const Fused& fused, const Mappin
                                      fmt::join(fused.models, " + "), layers.cell_m),
                          fmt::format("map hash {}, {} scans, {} x {} cells", hash, log.scans.size(), layers.rect.width,
                                      layers.rect.height)};
-  const std::vector<std::byte> picture = png(draw_map(layers, path, text));
+  const auto picture = [&](const std::string& file, Look look) {
+    out.write(file, png(draw(look, layers, path, text, {0, options.max_image_mb, file})), {});
+  };
+  picture("map.png", Look::mixed);
+  for (const Look look : parse_looks("--layers", options.layers))
+    picture(fmt::format("layer_{}.png", row_of(look).name), look);
   const std::string head = npy_head(layers);
-  out.write("map.png", picture, {});
   out.write("masses.npy", std::as_bytes(std::span(head)), std::as_bytes(std::span(layers.planes)));
-  out.write("map.pgm", pgm(layers));
-  out.write("map.yaml", map_yaml(layers, "map.pgm"));
+  const PgmMode mode = parse_pgm_mode(options.pgm_mode);
+  out.write("map.pgm", pgm(layers, mode));
+  out.write("map.yaml", map_yaml(layers, "map.pgm", mode));
+  if (options.costmap) {
+    out.write("costmap.npy", costmap_npy(fused.map, layers.rect));
+    out.write("costmap.pgm", costmap_pgm(fused.map, layers.rect));
+    out.write("occupancy.npy", occupancy_npy(fused.map, layers.rect));
+  }
+  out.write_by(kMapFile, [&](std::ostream& file) { save(fused.map, file); });
   for (const auto& [key, value] : extra.items()) report[key] = value;
   report["fusion_s"] = fused.fusion_s;
   report["wall_s"] = seconds_since(start);

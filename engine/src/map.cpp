@@ -8,6 +8,7 @@
 
 #include "grid/readout.hpp"
 #include "integrate.hpp"
+#include "io/map_access.hpp"
 #include "params/table.hpp"
 
 namespace evigrid {
@@ -67,6 +68,12 @@ CellRect Map::bounds() const { return occupied_bounds(impl_->store); }
 void Map::render(Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) const {
   render_layer(impl_->store, layer, rect, out, stride);
 }
+void Map::render(const Costmap& c, CellRect rect, std::span<std::int8_t> out, std::ptrdiff_t stride) const {
+  render_costmap(impl_->store, c, rect, out, stride);
+}
+void Map::render(const Costmap& c, CellRect rect, std::span<std::uint8_t> out, std::ptrdiff_t stride) const {
+  render_costmap(impl_->store, c, rect, out, stride);
+}
 std::uint64_t Map::hash() const { return hash_cells(impl_->store); }
 
 void Map::clear() {
@@ -80,5 +87,11 @@ std::string_view Map::executor_name() const noexcept { return impl_->executor->n
 std::span<const std::uint64_t> Map::tiles_per_worker() const noexcept { return impl_->tiles_per_worker; }
 std::size_t Map::tiles() const noexcept { return impl_->store.size(); }
 std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
+
+const TileStore& MapAccess::store(const Map& m) noexcept { return m.impl_->store; }
+TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
+std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->last_stamp_ns; }
+std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->last_stamp_ns; }
+Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }
 
 }  // namespace evigrid

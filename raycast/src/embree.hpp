@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only place that knows which Embree this is. Version 4 moved the ray context into an argument structure; both are
-// used here through the same three names. Masks are set by hand, since the default of a geometry's mask changed.
+// used here through the same names. `valid`: −1 for each ray of a packet that is asked, else 0; `coherent` rays start
+// at one point and look nearly the same way. Masks are set by hand, since the default of a geometry's mask changed.
 #pragma once
 #include <xmmintrin.h>
 
@@ -24,10 +25,21 @@ inline void intersect(RTCScene scene, RayContext& context, RTCRayHit& ray) {
   arguments.context = &context;
   rtcIntersect1(scene, &ray, &arguments);
 }
+inline void intersect(RTCScene scene, RayContext& context, const int* valid, RTCRayHit16& rays, bool coherent) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  arguments.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  rtcIntersect16(valid, scene, &rays, &arguments);
+}
 #else
 using RayContext = RTCIntersectContext;
 inline void init(RayContext& context) { rtcInitIntersectContext(&context); }
 inline void intersect(RTCScene scene, RayContext& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
+inline void intersect(RTCScene scene, RayContext& context, const int* valid, RTCRayHit16& rays, bool coherent) {
+  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  rtcIntersect16(valid, scene, &context, &rays);
+}
 #endif
 
 inline constexpr unsigned kEveryMask = 0xffffffffu;

@@ -22,19 +22,19 @@ std::uint64_t random_bits(const NoiseKey& key, std::uint32_t draw) noexcept {
   return mix(h ^ draw * 0xd1342543de82ef95u);
 }
 
-double gaussian(const NoiseKey& key) noexcept {
+double gaussian(const NoiseKey& key, std::uint32_t index) noexcept {
   // Two uniforms of 32 bits per draw. The sum is an integer below 2^36: exact, so its order cannot matter.
   std::uint64_t sum = 0;
   for (std::uint32_t draw = 0; draw < 6; ++draw) {
-    const std::uint64_t bits = random_bits(key, draw);
+    const std::uint64_t bits = random_bits(key, 6 * index + draw);
     sum += (bits >> 32) + (bits & 0xffffffffu);
   }
   // + 6: each uniform is taken at the middle of its step, which makes the mean exactly 0.
   return static_cast<double>(sum + 6) * 0x1p-32 - 6;
 }
 
-double noisy(double range_m, const RangeNoise& noise, const NoiseKey& key) noexcept {
-  return range_m + (noise.sigma_m + noise.ratio * range_m) * gaussian(key);
+double noisy(double range_m, const RangeNoise& noise, const NoiseKey& key, std::uint32_t index) noexcept {
+  return range_m + (noise.sigma_m + noise.ratio * range_m) * gaussian(key, index);
 }
 
 }  // namespace evigrid::raycast

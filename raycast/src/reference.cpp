@@ -25,7 +25,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Sweep {
  public:
-  Sweep(const std::vector<Surface>& surfaces, const ConeQuery& q) : half_rad_(q.aperture_rad / 2 + kEdgeSlack_rad) {
+  Sweep(const std::vector<Surface>& surfaces, const ConeQuery& q)
+      : half_rad_(q.aperture_rad / 2 + kEdgeSlack_rad), max_range_m_(q.max_range_m) {
     for (const Surface& s : surfaces) seen_.push_back(polar(seen_from(s, {q.x_m, q.y_m}), q.yaw_rad));
     for (const Polar& p : seen_) contact_ = contact_ || p.contact;
     if (contact_) return;
@@ -52,6 +53,7 @@ class Sweep {
   }
 
   void add_events(const Polar& p) {
+    add_limits_of_hearing(p);
     if (p.round) {
       const double tangent = p.inside() ? kPi : std::asin(p.radius_m / p.distance_m);
       const double sine = p.distance_m > 0 ? p.radius_m * std::sin(p.critical_rad) / p.distance_m : 1;
@@ -64,6 +66,26 @@ class Sweep {
       add_event(p.towards_rad + p.critical_rad);
       add_event(p.towards_rad - p.critical_rad);
     }
+  }
+
+  /// Where the surface becomes too far to be heard: bisected, stretch by stretch.
+  void add_limits_of_hearing(const Polar& p) {
+    const auto heard = [&](double angle) { return audible(p, range_at(p, angle), max_range_m_); };
+    const std::vector<double> turns = turning_points(p);
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+      double low = turns[i], high = turns[i + 1];
+      const bool at_low = heard(low);
+      if (heard(high) == at_low) continue;
+      for (int step = 0; step < 60; ++step) {
+        const double middle = (low + high) / 2;
+        (heard(middle) == at_low ? low : high) = middle;
+      }
+      add_event(low);
+    }
+  }
+
+  [[nodiscard]] bool answers(const Polar& p, double angle_rad) const {
+    return reaches(p, angle_rad) && echoes(p, angle_rad) && audible(p, range_at(p, angle_rad), max_range_m_);
   }
 
   /// Crossings by following both ranges along the common angles: a sign change is bracketed and bisected, and where a
@@ -125,14 +147,14 @@ class Sweep {
     for (const Polar& p : seen_) first = std::min(first, range_at(p, middle));
     if (first == kInfinity) return;
     for (const Polar& p : seen_)
-      if (range_at(p, middle) <= first + kTie * (1 + first) && reaches(p, middle) && echoes(p, middle))
+      if (range_at(p, middle) <= first + kTie * (1 + first) && answers(p, middle))
         best_m_ = std::min(best_m_, least(p, begin_rad, end_rad));
   }
 
   /// Surfaces whose echoing part in the cone is this one ray: edge-on, at its critical incidence, on the cone's edge.
   void look_along(double angle_rad) {
     const auto there = [&](const Polar& p, double a) {
-      return std::abs(a) <= half_rad_ && reaches(p, a) && range_at(p, a) < kInfinity && echoes(p, a);
+      return std::abs(a) <= half_rad_ && range_at(p, a) < kInfinity && answers(p, a);
     };
     double first = kInfinity;
     for (const Polar& p : seen_) first = std::min(first, range_at(p, angle_rad));
@@ -154,7 +176,7 @@ class Sweep {
     return best;
   }
 
-  double half_rad_;
+  double half_rad_, max_range_m_;
   bool contact_ = false;
   double best_m_ = kInfinity;
   std::vector<Polar> seen_;
@@ -170,12 +192,14 @@ Echo reference_cone(const World& world, const ConeQuery& query) {
 
 double reference_ray(const World& world, double x_m, double y_m, double angle_rad, double max_range_m) {
   check_ray(x_m, y_m, angle_rad, max_range_m);
-  double first = kInfinity;
-  for (const Surface& s : take_apart(world)) {
-    const Polar p = polar(seen_from(s, {x_m, y_m}), angle_rad);
-    first = std::min(first, p.contact ? 0 : range_at(p, 0));
-  }
-  return first <= max_range_m ? first : kInfinity;
+  std::vector<Polar> seen;
+  for (const Surface& s : take_apart(world)) seen.push_back(polar(seen_from(s, {x_m, y_m}), angle_rad));
+  const auto range = [](const Polar& p) { return p.contact ? 0 : range_at(p, 0); };
+  double first = kInfinity, heard = kInfinity;
+  for (const Polar& p : seen) first = std::min(first, range(p));
+  for (const Polar& p : seen)
+    if (range(p) <= first + kTie * (1 + first) && audible(p, range(p), max_range_m)) heard = std::min(heard, range(p));
+  return std::min(heard, heard < kInfinity ? max_range_m : kInfinity);
 }
 
 }  // namespace evigrid::raycast

@@ -26,6 +26,7 @@ Polar segment(const Surface& s, double axis_rad) {
   p.nearer_end_m = std::min(to_a, to_b);
   p.farther_end_m = std::max(to_a, to_b);
   p.critical_rad = s.critical_incidence_rad;
+  p.absorption = s.absorption;
   p.point = size <= kContact_m;
   if (p.point) {
     p.towards_rad = angle_a;
@@ -54,6 +55,7 @@ Polar polar(const Surface& s, double axis_rad) {
   p.distance_m = std::hypot(s.a.x, s.a.y);
   p.radius_m = s.radius;
   p.critical_rad = s.critical_incidence_rad;
+  p.absorption = s.absorption;
   p.contact = std::abs(p.distance_m - p.radius_m) <= kContact_m;
   return p;
 }
@@ -86,6 +88,22 @@ bool echoes(const Polar& p, double angle_rad) {
   if (!p.round) return off <= p.critical_rad + kEdgeSlack_rad;
   const double sine = p.radius_m > 0 ? std::min(1.0, p.distance_m * std::sin(off) / p.radius_m) : 0;
   return std::asin(sine) <= p.critical_rad + kEdgeSlack_rad;
+}
+
+bool audible(const Polar& p, double range_m, double max_range_m) {
+  if (range_m <= kContact_m) return true;
+  const double counted_m = range_m - kContact_m;  // closed
+  return (1 - p.absorption) * (max_range_m * max_range_m) >= counted_m * counted_m;
+}
+
+std::vector<double> turning_points(const Polar& p) {
+  if (p.round) {
+    const double side = p.inside() ? kPi : std::asin(p.radius_m / p.distance_m);
+    return {p.towards_rad - side, p.towards_rad, p.towards_rad + side};
+  }
+  const double begin = p.begin_rad, foot = begin + wrapped(p.towards_rad - begin), end = begin + p.span_rad;
+  if (foot > begin && foot < end) return {begin, foot, end};
+  return {begin, end};
 }
 
 double least_m(const Polar& p) {

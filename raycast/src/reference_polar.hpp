@@ -2,6 +2,8 @@
 // A surface as the reference sees it: in angles around the sensor. For each angle: how far, whether it is there, and
 // whether it gives an echo. Shares no formula with the caster.
 #pragma once
+#include <vector>
+
 #include "surface.hpp"
 
 namespace evigrid::raycast::reference {
@@ -25,6 +27,7 @@ struct Polar {
   double nearer_end_m = 0;  ///< segment
   double farther_end_m = 0;
   double critical_rad = 0;
+  double absorption = 0;
   bool point = false;    ///< no direction of its own: echoes to every side
   bool contact = false;  ///< the sensor stands on it
   [[nodiscard]] bool inside() const { return round && distance_m < radius_m; }
@@ -42,6 +45,12 @@ bool reaches(const Polar& p, double angle_rad);
 
 /// Whether the incidence at this angle is within the critical one.
 bool echoes(const Polar& p, double angle_rad);
+
+/// Whether an echo from this far still has the energy of a perfect one from max_range_m.
+bool audible(const Polar& p, double range_m, double max_range_m);
+
+/// Angles between which the range grows or shrinks all the way: ends, tangents, foot or centre; not wrapped.
+std::vector<double> turning_points(const Polar& p);
 
 /// Nearest and farthest point of the whole surface, as bounds.
 double least_m(const Polar& p);

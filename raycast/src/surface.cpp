@@ -29,9 +29,12 @@ Surface with_material(Surface s, const Material& material, const char* object, s
           "critical_incidence_rad is outside [0, pi/2]");
   const double closed = critical + kEdgeSlack_rad;
   const bool every = closed >= std::numbers::pi / 2;
+  require(material.absorption >= 0 && material.absorption < 1, object, index, "absorption is outside [0, 1)");
   s.critical_incidence_rad = critical;
   s.sin_critical = every ? 1 : std::sin(closed);
   s.tan_critical = every ? std::numeric_limits<double>::infinity() : std::tan(closed);
+  s.absorption = material.absorption;
+  s.heard_share = std::sqrt(1 - material.absorption);
   return s;
 }
 

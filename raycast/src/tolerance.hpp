@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What "closed" and "touching" mean in floating point. These four numbers are part of the definition of an answer, so
-// the caster and the reference share them, and nothing else. Sizes: a sensor range is metres, rounding is 1e-15 m.
+// What "closed" and "touching" mean in floating point. These numbers are part of the definition of an answer, so the
+// caster and the reference share them, and nothing else. Sizes: a sensor range is metres, rounding is 1e-15 m.
 #pragma once
 
 namespace evigrid::raycast {
@@ -19,5 +19,8 @@ inline constexpr double kContact_m = 1e-9;
 /// Of two hits on one ray, the nearer one hides the other only when it is nearer by this, relative to 1 m + range:
 /// surfaces lying on one another are both seen.
 inline constexpr double kTie = 1e-12;
+
+/// A ray that meets a straight surface at a smaller sine than this runs along it: it meets the nearer end.
+inline constexpr double kEdgeOn = 1e-15;
 
 }  // namespace evigrid::raycast

@@ -28,7 +28,7 @@ struct Seen {
 class Visibility {
  public:
   Visibility(const std::vector<Surface>& surfaces, const Wedge& wedge, double max_range_m)
-      : wedge_(wedge), best_m_(std::nextafter(max_range_m, kInfinity)), max_range_m_(max_range_m) {
+      : wedge_(wedge), best_m_(std::nextafter(max_range_m + kContact_m, kInfinity)), max_range_m_(max_range_m) {
     for (const Surface& s : surfaces)
       if (const auto p = nearest_in_wedge(s, wedge)) seen_.push_back({s, length(*p)});
     std::sort(seen_.begin(), seen_.end(), [](const Seen& l, const Seen& r) { return l.nearest_m < r.nearest_m; });
@@ -37,10 +37,10 @@ class Visibility {
 
   double solve() {
     for (std::size_t i = 0; i < seen_.size() && seen_[i].nearest_m < best_m_; ++i) {
-      const Pieces pieces = echo_pieces(seen_[i].surface, wedge_);
+      const Pieces pieces = echo_pieces(seen_[i].surface, wedge_, max_range_m_);
       for (int k = 0; k < pieces.count; ++k) try_piece(i, pieces.piece[k]);
     }
-    return best_m_ <= max_range_m_ ? best_m_ : kInfinity;
+    return best_m_ <= max_range_m_ + kContact_m ? best_m_ : kInfinity;
   }
 
  private:

@@ -9,7 +9,8 @@
 
 namespace evigrid::raycast {
 
-/// `surfaces`: all that reach into the wedge within `max_range_m`, apex at the origin and touching none of them.
+/// `surfaces`: all that reach into the wedge within `max_range_m`, apex at the origin and touching none of them. Those
+/// that absorb too much to be heard from where they are hide all the same.
 /// Returns +∞ when nothing is visible and echoes within max_range_m.
 double nearest_visible_echo(const std::vector<Surface>& surfaces, const Wedge& wedge, double max_range_m);
 

@@ -82,22 +82,62 @@ Vec2 nearest_on_circle(const Surface& s, const Arc& arc) {
   return best;
 }
 
-/// Parts of a circle met at no more than `sin_limit`: sin(incidence) = D·sin(angle to the centre) / r.
-Pieces circle_pieces(const Surface& s, const Wedge& w, double sin_limit) {
+/// An angle by its cosine and sine, in [0, π].
+struct Angle {
+  double cosine, sine;
+};
+
+/// Angle between the centre of a circle and its point at distance `h`, |D − r| <= h <= D + r: law of cosines, in a form
+/// that keeps small angles exact: sin²(θ/2) = (r² − (D − h)²) / 4Dh.
+Angle angle_at(const Surface& s, double distance, double h) {
+  const double square =
+      std::clamp((s.radius - distance + h) * (s.radius + distance - h) / (4 * distance * h), 0.0, 1.0);
+  return {1 - 2 * square, 2 * std::sqrt(square * (1 - square))};
+}
+
+struct Arcs {
+  Arc arc[2];
+  int count = 0;
+};
+
+/// Directions in which a circle around the origin is no farther than `heard`: all but those too near to its centre's.
+/// Each arc spans less than π.
+Arcs heard_around(const Surface& s, double distance, double heard) {
+  const Vec2 back = -unit(s.a);
+  const Angle off = angle_at(s, distance, heard);
+  if (off.cosine < 0) return {{around(back, off.sine), {}}, 1};
+  return {{{rotated(-back, off.cosine, off.sine), back}, {back, rotated(-back, off.cosine, -off.sine)}}, 2};
+}
+
+/// Parts of a circle met at no more than `sin_limit`, sin(incidence) = D·sin(angle to the centre) / r, and no farther
+/// away than `heard`.
+Pieces circle_pieces(const Surface& s, const Wedge& w, double sin_limit, double heard) {
   Pieces pieces;
-  const auto add = [&](const Arc& arc) {
-    if (const auto common = intersection(arc, w.arc))
-      pieces.piece[pieces.count++] = {*common, nearest_on_circle(s, *common)};
-  };
   const double distance = length(s.a);
-  const bool outside = distance > s.radius;
-  if (!outside && s.radius * sin_limit >= distance) {
-    pieces.piece[pieces.count++] = {w.arc, nearest_on_circle(s, w.arc)};
+  if (heard < std::abs(distance - s.radius)) return pieces;
+  const auto add = [&](const std::optional<Arc>& arc) {
+    if (arc) pieces.piece[pieces.count++] = {*arc, nearest_on_circle(s, *arc)};
+  };
+  if (distance > s.radius) {
+    double sine = s.radius * sin_limit / distance;
+    if (heard * heard < distance * distance - s.radius * s.radius)
+      sine = std::min(sine, angle_at(s, distance, heard).sine);
+    add(intersection(around(unit(s.a), sine), w.arc));
     return pieces;
   }
-  const double sine = s.radius * sin_limit / distance;
-  add(around(unit(s.a), sine));
-  if (!outside) add(around(-unit(s.a), sine));
+  const bool everywhere = heard >= distance + s.radius;
+  const Arcs near = everywhere ? Arcs{{w.arc, {}}, 1} : heard_around(s, distance, heard);
+  for (int i = 0; i < near.count; ++i) {
+    const auto seen = everywhere ? std::optional(w.arc) : intersection(near.arc[i], w.arc);
+    if (!seen) continue;
+    if (s.radius * sin_limit >= distance) {
+      add(seen);
+      continue;
+    }
+    const double sine = s.radius * sin_limit / distance;
+    add(intersection(around(unit(s.a), sine), *seen));
+    add(intersection(around(-unit(s.a), sine), *seen));
+  }
   return pieces;
 }
 
@@ -136,7 +176,7 @@ Wedge make_wedge(double yaw_rad, double aperture_rad) {
 std::optional<Vec2> nearest_in_wedge(const Surface& s, const Wedge& w) {
   if (touches_origin(s)) return Vec2{0, 0};
   if (s.kind == Surface::Kind::circle) {
-    const Pieces whole = circle_pieces(s, w, 1);
+    const Pieces whole = circle_pieces(s, w, 1, kInfinity);
     std::optional<Vec2> best;
     for (int i = 0; i < whole.count; ++i) {
       const Vec2 p = whole.piece[i].nearest;
@@ -151,7 +191,7 @@ std::optional<Vec2> nearest_in_wedge(const Surface& s, const Wedge& w) {
   return s.a + std::clamp(foot(s, edge).u, r.low, r.high) * edge;
 }
 
-bool gives_echo(const Surface& s, Vec2 p) {
+bool within_critical(const Surface& s, Vec2 p) {
   const double range = length(p);
   if (range <= kContact_m || s.tan_critical == kInfinity) return true;
   if (s.kind == Surface::Kind::circle) return std::abs(cross(p, s.a)) <= s.radius * s.sin_critical * range;
@@ -160,22 +200,30 @@ bool gives_echo(const Surface& s, Vec2 p) {
   return std::abs(dot(p, edge)) <= s.tan_critical * std::abs(cross(p, edge));
 }
 
-Pieces echo_pieces(const Surface& s, const Wedge& w) {
-  if (s.kind == Surface::Kind::circle) return circle_pieces(s, w, s.sin_critical);
+bool gives_echo(const Surface& s, Vec2 p, double max_range_m) {
+  return length(p) <= heard_m(s, max_range_m) && within_critical(s, p);
+}
+
+Pieces echo_pieces(const Surface& s, const Wedge& w, double max_range_m) {
+  // What absorbs nothing is heard from wherever the cone reaches.
+  const double heard = s.heard_share < 1 ? heard_m(s, max_range_m) : kInfinity;
+  if (s.kind == Surface::Kind::circle) return circle_pieces(s, w, s.sin_critical, heard);
   Pieces none, one;
   one.count = 1;
   const Vec2 edge = s.b - s.a;
   if (is_point(edge)) {
     one.piece[0] = point_piece(s.a);
-    return contains(w.arc, unit(s.a)) ? one : none;
+    return contains(w.arc, unit(s.a)) && length(s.a) <= heard ? one : none;
   }
   Range r = clip(s, edge, w);
   const Foot f = foot(s, edge);
-  if (s.tan_critical != kInfinity) {
-    const double reach = f.height * s.tan_critical / length(edge);
+  const auto keep_around_foot = [&](double reach) {
     r.low = std::max(r.low, f.u - reach);
     r.high = std::min(r.high, f.u + reach);
-  }
+  };
+  if (s.tan_critical != kInfinity) keep_around_foot(f.height * s.tan_critical / length(edge));
+  if (f.height > heard) return none;
+  if (heard < kInfinity) keep_around_foot(std::sqrt((heard - f.height) * (heard + f.height)) / length(edge));
   if (r.empty()) return none;
   const auto at = [&](double u) { return s.a + u * edge; };
   Arc arc{unit(at(r.low)), unit(at(r.high))};
@@ -199,7 +247,7 @@ double hit_distance(const Surface& s, Vec2 u) {
   if (cross(right, u) < -slack * to_right || cross(u, left) < -slack * to_left) return kInfinity;
   if (dot(u, right) <= 0 && dot(u, left) <= 0) return kInfinity;
   const double facing = cross(u, edge);
-  if (facing <= kRounding * length(edge)) return std::min(to_right, to_left);  // seen edge-on, or a point
+  if (facing <= kEdgeOn * length(edge)) return std::min(to_right, to_left);  // seen edge-on, or a point
   return std::max(foot(s, edge).height, std::min(cross(right, edge) / facing, longest));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One surface and one cone, apex at the origin: the nearest point of the surface in the cone, the part of it that gives
-// an echo, and where a ray meets it. No other surface is looked at here.
+// an echo (its incidence is within the critical one and its absorption lets it be heard from there), and where a ray
+// meets it. No other surface is looked at here.
 #pragma once
 #include <optional>
 
@@ -29,20 +30,23 @@ Wedge make_wedge(double yaw_rad, double aperture_rad);
 /// Nearest point in the wedge whatever the incidence; contact with the apex is the point (0, 0).
 std::optional<Vec2> nearest_in_wedge(const Surface& s, const Wedge& wedge);
 
-/// Whether the part of the surface at its point `p` gives an echo to the origin.
-bool gives_echo(const Surface& s, Vec2 p);
+/// Whether the surface at its point `p`, seen from the origin, is met within its critical incidence.
+bool within_critical(const Surface& s, Vec2 p);
+
+/// Whether the surface at its point `p` gives an echo that a sensor of this range hears at the origin.
+bool gives_echo(const Surface& s, Vec2 p, double max_range_m);
 
 /// A connected part of a surface inside the wedge that gives an echo, as directions, and its nearest point.
 struct Piece {
   Arc arc;
   Vec2 nearest;
 };
-/// None, one or (a circle around the origin) two.
+/// None or one, but for a circle around the origin: two by incidence, each parted in two where it is too far to hear.
 struct Pieces {
-  Piece piece[2];
+  Piece piece[4];
   int count = 0;
 };
-Pieces echo_pieces(const Surface& s, const Wedge& wedge);
+Pieces echo_pieces(const Surface& s, const Wedge& wedge, double max_range_m);
 
 /// Distance at which a ray from the origin meets the surface first; +∞ when it misses. Hides kHidingSlack_rad beyond
 /// the ends.

@@ -56,9 +56,11 @@ std::string Table::name_of(std::string_view key) const {
   return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
 }
 
+std::string Table::file_of(const toml::source_region& source) const { return source.path ? *source.path : file_; }
+
 void Table::fail_at(const toml::node& node, const std::string& key, const std::string& message) const {
   const auto line = std::max<toml::source_index>(1, node.source().begin.line);
-  throw SceneError(file_ + ":" + std::to_string(line) + ": " + name_of(key) + ": " + message);
+  throw SceneError(file_of(node.source()) + ":" + std::to_string(line) + ": " + name_of(key) + ": " + message);
 }
 
 void Table::fail(std::string_view key, const std::string& message) const {
@@ -123,6 +125,13 @@ std::string Table::text_or(std::string_view key, std::string fallback) {
   return find(key) ? text(key) : std::move(fallback);
 }
 
+bool Table::boolean_or(std::string_view key, bool fallback) {
+  const toml::node* node = find(key);
+  if (!node) return fallback;
+  if (!node->is_boolean()) fail(key, "must be true or false");
+  return *node->value<bool>();
+}
+
 raycast::Point Table::checked_point(const toml::node& node, const std::string& key) const {
   const toml::array* pair = node.as_array();
   if (!pair || pair->size() != 2) fail_at(node, key, "must be a point [x, y]");
@@ -131,6 +140,18 @@ raycast::Point Table::checked_point(const toml::node& node, const std::string& k
 }
 
 raycast::Point Table::point(std::string_view key) { return checked_point(get(key), std::string(key)); }
+
+Pose Table::pose(std::string_view key) {
+  const toml::node& node = get(key);
+  const std::string name(key);
+  const toml::array* parts = node.as_array();
+  if (!parts || parts->size() < 2 || parts->size() > 3) fail_at(node, name, "must be [x, y] or [x, y, yaw_deg]");
+  const Limits limits{-kFarthest_m, kFarthest_m};
+  Pose pose{checked_number(*parts->get(0), name, limits), checked_number(*parts->get(1), name, limits), 0};
+  if (parts->size() == 3)
+    pose.yaw_rad = checked_number(*parts->get(2), name, {-360, 360}) * (std::numbers::pi / 180);
+  return pose;
+}
 
 std::vector<raycast::Point> Table::points(std::string_view key, std::size_t low, std::size_t high) {
   const toml::array* list = get(key).as_array();
@@ -184,7 +205,7 @@ void Table::refuse_unknown_keys() const {
     std::string message = "is unknown";
     if (nearest != known_.end()) message += "; did you mean " + *nearest + "?";
     const auto line = std::max<toml::source_index>(1, key.source().begin.line);
-    throw SceneError(file_ + ":" + std::to_string(line) + ": " + name_of(name) + ": " + message);
+    throw SceneError(file_of(key.source()) + ":" + std::to_string(line) + ": " + name_of(name) + ": " + message);
   }
 }
 

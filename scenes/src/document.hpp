@@ -32,7 +32,10 @@ class Table {
   std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high);
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string fallback);
+  bool boolean_or(std::string_view key, bool fallback);
   raycast::Point point(std::string_view key);
+  /// [x, y, yaw_deg], or [x, y] with yaw 0.
+  Pose pose(std::string_view key);
   std::vector<raycast::Point> points(std::string_view key, std::size_t low, std::size_t high);
   Table table(std::string_view key);
   /// An absent table reads as an empty one.
@@ -40,7 +43,8 @@ class Table {
   /// [[key]] tables; none when absent.
   std::vector<Table> tables(std::string_view key, std::size_t limit);
   [[nodiscard]] std::vector<std::string> keys() const;
-  [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  /// Counts as asking for it: an optional field whose absence is fine is a known one.
+  [[nodiscard]] bool has(std::string_view key) { return find(key) != nullptr; }
 
   /// To be called last: complains of the first key that was never asked for, and names the nearest known one.
   void refuse_unknown_keys() const;
@@ -54,6 +58,8 @@ class Table {
   raycast::Point checked_point(const toml::node& node, const std::string& key) const;
   [[noreturn]] void fail_at(const toml::node& node, const std::string& key, const std::string& message) const;
   [[nodiscard]] std::string name_of(std::string_view key) const;
+  /// Parts of a robot that is used by the scene come from a file of their own.
+  [[nodiscard]] std::string file_of(const toml::source_region& source) const;
 
   const toml::table* table_;
   std::string file_, path_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Either a ring of equal sonars that look outwards, or a list of single ones; what a single one does not say is taken
-// from [robot.sensor].
+// A robot: a ring of equal sonars that look outwards, single sonars, lasers, and how well it knows its way. What a sonar
+// does not say is taken from [robot.sensor].
 #include <cmath>
 #include <numbers>
 
@@ -9,24 +9,35 @@
 namespace evigrid::scenes {
 namespace {
 
-constexpr std::int64_t kMostSonars = 1024;
+constexpr std::int64_t kMostSonars = 1024, kMostLasers = 64, kMostBeams = 100'000, kMostGroups = 1024;
 constexpr Limits kRange_m{0, 1000}, kMount_m{-100, 100}, kTurn_deg{-360, 360};
 
-/// Fields of a sensor, over those of `base`; without a base all that have no natural value are required.
-SonarSpec read_sensor(Table& t, const SonarSpec* base) {
+/// Limits, noise and reliability: what sonars and lasers share. `base` has the values of what is not said.
+template <class Sensor>
+void read_common(Table& t, Sensor& s, bool range_required) {
+  s.min_range_m = t.number_or("min_range_m", kRange_m, s.min_range_m);
+  s.max_range_m =
+      range_required ? t.number("max_range_m", kRange_m) : t.number_or("max_range_m", kRange_m, s.max_range_m);
+  if (s.max_range_m <= s.min_range_m) t.fail("max_range_m", "must be greater than min_range_m");
+  s.reliability = t.number_or("reliability", {0, 1, true}, s.reliability);
+  s.noise.sigma_m = t.number_or("noise_sigma_m", {0, 10}, s.noise.sigma_m);
+  s.noise.ratio = t.number_or("noise_ratio", {0, 1}, s.noise.ratio);
+}
+
+Pose read_mount(Table& t) {
+  return {t.number("x_m", kMount_m), t.number("y_m", kMount_m), t.angle("yaw_deg", kTurn_deg)};
+}
+
+/// Fields of a sonar, over those of `base`; without a base all that have no natural value are required.
+SonarSpec read_sonar(Table& t, const SonarSpec* base) {
   SonarSpec s = base ? *base : SonarSpec{};
   const auto required = [&](const char* key) { return !base || t.has(key); };
   s.model = required("model") ? t.text("model") : t.text_or("model", s.model);
   const Limits aperture_deg{0, 60, true};
   s.aperture_rad = required("aperture_deg") ? t.angle("aperture_deg", aperture_deg)
                                             : t.angle_or("aperture_deg", aperture_deg, s.aperture_rad);
-  s.min_range_m = t.number_or("min_range_m", kRange_m, s.min_range_m);
-  s.max_range_m =
-      required("max_range_m") ? t.number("max_range_m", kRange_m) : t.number_or("max_range_m", kRange_m, s.max_range_m);
-  if (s.max_range_m <= s.min_range_m) t.fail("max_range_m", "must be greater than min_range_m");
-  s.reliability = t.number_or("reliability", {0, 1, true}, s.reliability);
-  s.noise.sigma_m = t.number_or("noise_sigma_m", {0, 10}, s.noise.sigma_m);
-  s.noise.ratio = t.number_or("noise_ratio", {0, 1}, s.noise.ratio);
+  read_common(t, s, required("max_range_m"));
+  if (t.has("group")) s.group = static_cast<int>(t.integer("group", 0, kMostGroups - 1));
   return s;
 }
 
@@ -42,23 +53,71 @@ void add_ring(Table ring, const SonarSpec& base, std::vector<SonarSpec>& sonars)
   }
 }
 
-}  // namespace
-
-std::vector<SonarSpec> read_robot(Table robot) {
-  Table sensor = robot.table("sensor");
-  const SonarSpec base = read_sensor(sensor, nullptr);
-  sensor.refuse_unknown_keys();
+std::vector<SonarSpec> read_sonars(Table& robot) {
   std::vector<SonarSpec> sonars;
-  if (Table ring = robot.table_or_empty("ring"); robot.has("ring")) add_ring(ring, base, sonars);
-  for (Table& t : robot.tables("sonar", kMostSonars)) {
-    sonars.push_back(read_sensor(t, &base));
-    sonars.back().T_robot_sensor = {t.number("x_m", kMount_m), t.number("y_m", kMount_m),
-                                    t.angle("yaw_deg", kTurn_deg)};
+  std::vector<Table> singles = robot.tables("sonar", kMostSonars);
+  const bool any = robot.has("ring") || !singles.empty();
+  Table sensor = any ? robot.table("sensor") : robot.table_or_empty("sensor");
+  Table ring = robot.table_or_empty("ring");
+  if (!any && !robot.has("sensor")) return sonars;
+  const SonarSpec base = read_sonar(sensor, nullptr);
+  sensor.refuse_unknown_keys();
+  if (robot.has("ring")) add_ring(ring, base, sonars);
+  for (Table& t : singles) {
+    sonars.push_back(read_sonar(t, &base));
+    sonars.back().T_robot_sensor = read_mount(t);
     t.refuse_unknown_keys();
   }
-  robot.refuse_unknown_keys();
-  if (sonars.empty()) robot.fail("", "has no sonar: neither [robot.ring] nor [[robot.sonar]]");
   return sonars;
+}
+
+LaserSpec read_laser(Table& t) {
+  LaserSpec s;
+  s.model = t.text_or("model", s.model);
+  s.T_robot_sensor = read_mount(t);
+  s.first_rad = t.angle("first_deg", kTurn_deg);
+  s.step_rad = t.angle("step_deg", {0, 360, true});
+  s.beams = static_cast<int>(t.integer("beams", 1, kMostBeams));
+  constexpr double kRound = 1e-9;  // 360 steps of one degree are a circle, whatever their sum rounds to
+  if (s.step_rad * s.beams > 2 * std::numbers::pi + kRound)
+    t.fail("step_deg", "times beams is more than a full circle");
+  read_common(t, s, true);
+  t.refuse_unknown_keys();
+  return s;
+}
+
+OdometrySpec read_odometry(Table t) {
+  OdometrySpec o;
+  o.used = t.has("drift_left") || t.has("drift_right") || t.has("noise_m_per_sqrt_m");
+  o.track_m = t.number_or("track_m", {1e-3, 100}, o.track_m);
+  o.drift_left = t.number_or("drift_left", {-1, 1}, o.drift_left);
+  o.drift_right = t.number_or("drift_right", {-1, 1}, o.drift_right);
+  o.noise_m_per_sqrt_m = t.number_or("noise_m_per_sqrt_m", {0, 10}, o.noise_m_per_sqrt_m);
+  t.refuse_unknown_keys();
+  return o;
+}
+
+EchoSpec read_echo(Table t) {
+  EchoSpec echo;
+  echo.second_bounce = t.boolean_or("second_bounce", echo.second_bounce);
+  echo.cross_talk = t.boolean_or("cross_talk", echo.cross_talk);
+  t.refuse_unknown_keys();
+  return echo;
+}
+
+}  // namespace
+
+void read_robot(Table robot, Scene& scene) {
+  (void)robot.text_or("use", "");  // merged already; named here as a known key
+  scene.radius_m = robot.number_or("radius_m", {0, 100}, 0.2);
+  scene.sonars = read_sonars(robot);
+  scene.lasers.clear();
+  for (Table& t : robot.tables("laser", kMostLasers)) scene.lasers.push_back(read_laser(t));
+  scene.echo = read_echo(robot.table_or_empty("echo"));
+  scene.odometry = read_odometry(robot.table_or_empty("odometry"));
+  robot.refuse_unknown_keys();
+  if (scene.sonars.empty() && scene.lasers.empty())
+    robot.fail("", "has no sensor: neither [robot.ring] nor [[robot.sonar]] nor [[robot.laser]]");
 }
 
 }  // namespace evigrid::scenes

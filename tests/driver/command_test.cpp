@@ -25,7 +25,7 @@ TEST(Map, WritesItsFilesAndCountsWhatItLeftOut) {
   const TempDir dir;
   const Ran ran = evigrid({"map", dir.write("odd.log", odd_log()), "-o", dir.at("out"), "--threads", "2"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_EQ(dir.names(), (Names{"odd.log", "out", "out/map.pgm", "out/map.png", "out/map.yaml", "out/masses.npy",
+  EXPECT_EQ(dir.names(), (Names{"odd.log", "out", "out/map.evigrid", "out/map.pgm", "out/map.png", "out/map.yaml", "out/masses.npy",
                                 "out/report.json"}));
   const Json r = Json::parse(slurp(dir.at("out/report.json")));
   EXPECT_EQ(r["readings_used"], 7 * 180 - 5);
@@ -200,7 +200,7 @@ TEST(Info, FactsAsTextAndJson) {
 TEST(Help, EveryCommandShowsExamples) {
   EXPECT_EQ(evigrid({"--help"}).code, 0);
   EXPECT_EQ(evigrid({"--version"}).out, "evigrid 0.1.0\n");
-  for (const char* command : {"map", "run", "cast", "combine", "model", "info"}) {
+  for (const char* command : {"map", "run", "cast", "combine", "model", "info", "show"}) {
     const Ran ran = evigrid({command, "--help"});
     EXPECT_EQ(ran.code, 0) << command;
     EXPECT_TRUE(contains(ran.out, "Examples:")) << command;

@@ -2,7 +2,10 @@
 // masses.npy, map.pgm and map.yaml, byte for byte where other programs read them.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "error.hpp"
+#include "out/costmap.hpp"
 #include "out/layers.hpp"
 #include "text.hpp"
 
@@ -38,6 +41,60 @@ TEST(Pgm, TrinaryWithTheLargestYOnTop) {
   EXPECT_TRUE(contains(image, "\n3 2\n255\n"));
 }
 
+std::vector<int> pixels_of(const std::string& image, std::size_t n) {
+  std::vector<int> out;
+  for (const char c : image.substr(image.size() - n)) out.push_back(static_cast<unsigned char>(c));
+  return out;
+}
+
+TEST(Pgm, ScaleIsWhatMapServerTurnsBackIntoBetP) {
+  const Layers l = small();
+  const std::vector<int> pixels = pixels_of(pgm(l, PgmMode::scale), 6);
+  EXPECT_EQ(pixels, (std::vector<int>{128, 96, 128, 242, 13, 128}));  // BetP .5 .625 .5 / .05 .95 .5
+  for (std::size_t i = 0; i < 6; ++i) {                               // the loader: occ = (255 - pixel) / 255
+    const std::size_t cell = i < 3 ? i + 3 : i - 3;
+    EXPECT_NEAR((255 - pixels[i]) / 255.0, l.o()[cell] + 0.5 * l.u()[cell], 0.5 / 255 + 1e-6);
+  }
+  EXPECT_TRUE(contains(map_yaml(l, "m.pgm", PgmMode::scale), "\nmode: scale\n"));
+}
+
+TEST(Pgm, RawIsTheOccupancyItself) {
+  EXPECT_EQ(pixels_of(pgm(small(), PgmMode::raw), 6), (std::vector<int>{255, 63, 50, 5, 95, 255}));
+  EXPECT_TRUE(contains(map_yaml(small(), "m.pgm", PgmMode::raw), "\nmode: raw\n"));
+  EXPECT_EQ(parse_pgm_mode("raw"), PgmMode::raw);
+  EXPECT_THROW(parse_pgm_mode("RAW"), InputError);
+}
+
+Map seen_map() {
+  Map map({.cell_m = 0.1}, make_serial_executor());
+  const SensorId id = map.add(Sensor{});
+  const float range_m = 2;
+  const Reading reading{id, {&range_m, 1}};
+  map.integrate(Scan{0, {0.05, 0.05, 0.3}, {&reading, 1}});
+  return map;
+}
+
+TEST(Costs, ArraysAndImageHoldTheEnginesBytes) {
+  const Map map = seen_map();
+  const CellRect r = map.bounds();
+  const auto n = static_cast<std::size_t>(r.width * r.height);
+  const std::string grid = occupancy_npy(map, r), costs = costmap_npy(map, r), image = costmap_pgm(map, r);
+  EXPECT_TRUE(contains(
+      grid, fmt::format("{{'descr': '|i1', 'fortran_order': False, 'shape': ({}, {}), }}", r.height, r.width)));
+  EXPECT_TRUE(contains(costs, "'descr': '|u1'"));
+  EXPECT_EQ((grid.size() - n) % 64, 0u);
+  const std::vector<int> upright = pixels_of(costs, n), picture = pixels_of(image, n), cells = pixels_of(grid, n);
+  for (std::int64_t y = 0; y < r.height; ++y) {
+    for (std::int64_t x = 0; x < r.width; ++x) {
+      const Mass m = map.mass({r.x + x, r.y + y});
+      const auto i = static_cast<std::size_t>(y * r.width + x);
+      ASSERT_EQ(upright[i], cost_of({}, m));
+      ASSERT_EQ(static_cast<std::int8_t>(cells[i]), occupancy_of({}, m));
+      ASSERT_EQ(picture[static_cast<std::size_t>((r.height - 1 - y) * r.width + x)], cost_of({}, m));
+    }
+  }
+}
+
 TEST(Yaml, OriginIsTheLowerLeftCorner) {
   EXPECT_EQ(map_yaml(small(), "map.pgm"),
             "image: map.pgm\nmode: trinary\nresolution: 0.5\norigin: [-2, 1, 0]\nnegate: 0\n"
@@ -56,12 +113,7 @@ TEST(Dense, TooLargeIsRefusedByName) {
 }
 
 TEST(Dense, PlanesAreTheMapsFloats) {
-  Map map({.cell_m = 0.1}, make_serial_executor());
-  Sensor sonar;
-  const SensorId id = map.add(sonar);
-  const float range_m = 2;
-  const Reading reading{id, {&range_m, 1}};
-  map.integrate(Scan{0, {0.05, 0.05, 0.3}, {&reading, 1}});
+  const Map map = seen_map();
   const Layers l = render_layers(map, 100);
   ASSERT_FALSE(l.rect.empty());
   for (std::int64_t y = 0; y < l.rect.height; ++y) {

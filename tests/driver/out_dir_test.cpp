@@ -81,6 +81,23 @@ TEST(OutDir, AFailingCommitTakesBackWhatItMoved) {
   EXPECT_EQ(dir.names(), (Names{"a", "a/two", "a/two/inside"}));
 }
 
+TEST(OutDir, APieceByPieceWriterIsStagedToo) {
+  const TempDir dir;
+  {
+    OutDir out(dir.at("a"));
+    out.write_by("one", [](std::ostream& to) { to << "1" << 2; });
+    EXPECT_FALSE(dir.names().contains("a/one"));
+    out.commit();
+  }
+  EXPECT_EQ(slurp(dir.at("a/one")), "12");
+  {
+    OutDir out(dir.at("a"));
+    EXPECT_THROW(out.write_by("two", [](std::ostream& to) { to.setstate(std::ios::badbit); }), InputError);
+    EXPECT_THROW(out.write_by("three", [](std::ostream&) { throw std::runtime_error("x"); }), std::runtime_error);
+  }
+  EXPECT_EQ(dir.names(), (Names{"a", "a/one"}));
+}
+
 TEST(OutDir, ASingleFile) {
   const TempDir dir;
   require_writable(dir.at("f"));

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture: colours apart, also for the colour-blind; a valid PNG; nothing outside the canvas.
-#include <png.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "driver/decoded_png.hpp"
+#include "driver/text.hpp"
+#include "error.hpp"
 #include "picture/font.hpp"
 #include "picture/map_picture.hpp"
 
 namespace evigrid::driver {
 namespace {
 
-int luminance(Rgb c) { return (299 * c.r + 587 * c.g + 114 * c.b) / 1000; }
+int luminance(const Rgb& c) { return (299 * c.r + 587 * c.g + 114 * c.b) / 1000; }
 
 Layers one_of_each() {
   Layers l;
@@ -79,19 +80,62 @@ TEST(Png, ReadsBackPixelForPixel) {
   c.set(-1, 0, {9, 9, 9});
   c.set(3, 0, {9, 9, 9});
   const auto bytes = png(c);
-  ASSERT_GE(bytes.size(), 8u);
-  EXPECT_EQ(png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, 8), 0);
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  ASSERT_TRUE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
-  image.format = PNG_FORMAT_RGB;
-  ASSERT_EQ(image.width, 3u);
-  ASSERT_EQ(image.height, 2u);
-  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
-  ASSERT_TRUE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr));
-  EXPECT_EQ(pixels[0], 1);
-  EXPECT_EQ(pixels[15], 200);
-  EXPECT_EQ(pixels[16], 100);
+  const DecodedPng image = decode_png(bytes.data(), bytes.size());
+  ASSERT_EQ(image.width, 3);
+  ASSERT_EQ(image.height, 2);
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 3; ++x) EXPECT_EQ(image.get(x, y), c.get(x, y));
+  }
+}
+
+TEST(Picture, StartAndEndAreBothSeenWhereTheyMeet) {
+  const Canvas c = draw_map(one_of_each(), {{0.25, 0.05, 0}, {0.15, 0.05, 0}, {0.25, 0.05, 0}}, {"t", "s"});
+  const int left = (c.width() - 900) / 2, x = left + 2 * 225 + 112, y = 52 + 112;
+  EXPECT_EQ(c.get(x, y), (Rgb{0, 158, 115}));     // start: a disc
+  EXPECT_EQ(c.get(x, y - 8), (Rgb{213, 94, 0}));  // end: a ring around it
+  EXPECT_EQ(c.get(x + 8, y), (Rgb{213, 94, 0}));
+}
+
+TEST(Picture, ThePathIsSeenOnItsOwnColour) {
+  Canvas c(60, 20, {0, 114, 178});
+  draw_path(c, {0, 0, 1, {0, 0, 60, 20}, 1}, {{20, 10, 0}, {59, 10, 0}});
+  EXPECT_EQ(c.get(40, 10), (Rgb{0, 114, 178}));
+  EXPECT_EQ(c.get(40, 9), (Rgb{255, 255, 255}));
+  EXPECT_EQ(c.get(40, 11), (Rgb{255, 255, 255}));
+}
+
+TEST(Picture, ACanvasAboveTheCapIsRefusedByName) {
+  try {
+    (void)draw_map(one_of_each(), {}, {"t", "s"}, {.scale = 20000, .max_image_mb = 100, .name = "some.png"});
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(contains(error.what(), "some.png refused"));
+    EXPECT_TRUE(contains(error.what(), "--max-image-mb 100"));
+  }
+  Layers thin = one_of_each();
+  thin.rect = {0, 0, std::int64_t{1} << 40, 1};  // no canvas has such a side, whatever the cap
+  EXPECT_THROW((void)draw_map(thin, {}, {"", ""}, {.max_image_mb = 2'000'000'000}), InputError);
+}
+
+TEST(Font, TailsReachBelowTheLine) {
+  for (char c = '!'; c <= '~'; ++c) {
+    const bool tail = glyph_of(c)[7] != 0 || glyph_of(c)[8] != 0;
+    EXPECT_EQ(tail, std::string_view("gjpqy,;").find(c) != std::string_view::npos) << c;
+  }
+  Canvas canvas(12, 18, {255, 255, 255});
+  canvas.text(0, 0, "p", 2, {0, 0, 0});
+  EXPECT_EQ(canvas.get(0, 17), (Rgb{0, 0, 0}));
+}
+
+TEST(Canvas, HalvedIsTheMeanOfFour) {
+  Canvas c(4, 2, {0, 0, 0});
+  c.set(0, 0, {200, 40, 0});
+  c.set(1, 1, {200, 0, 3});
+  const Canvas half = halved(c);
+  EXPECT_EQ(half.width(), 2);
+  EXPECT_EQ(half.height(), 1);
+  EXPECT_EQ(half.get(0, 0), (Rgb{100, 10, 1}));
+  EXPECT_EQ(half.get(1, 0), (Rgb{0, 0, 0}));
 }
 
 TEST(Font, EveryPrintableLetterDiffers) {

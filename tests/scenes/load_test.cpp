@@ -198,7 +198,7 @@ TEST(Load, NoSonar) {
   std::string text = with("[robot.ring]\ncount = 4\nradius_m = 0.2\nfirst_bearing_deg = 45\n", "");
   const std::size_t at = text.find("[[robot.sonar]]");
   text.erase(at, text.find("[trajectory]") - at);
-  EXPECT_EQ(complaint(text), "room.toml:21: robot: has no sonar: neither [robot.ring] nor [[robot.sonar]]");
+  EXPECT_EQ(complaint(text), "room.toml:21: robot: has no sensor: neither [robot.ring] nor [[robot.sonar]] nor [[robot.laser]]");
 }
 
 TEST(Load, BrokenToml) {

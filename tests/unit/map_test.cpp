@@ -92,6 +92,59 @@ TEST(Map, RendersEveryLayerIntoACallersBuffer) {
   EXPECT_THROW(f.map.render(Layer::betp, rect, betp, 79), std::invalid_argument);
 }
 
+TEST(Costmap, ValuesOfBothKindsAtTheirBorders) {
+  const Costmap c{};
+  struct Row {
+    Mass m;
+    int occupancy, cost;
+  };
+  for (const Row& row : {Row{{0, 0, 1}, -1, 255},              // never seen
+                         Row{{0.04f, 0.05f, 0.91f}, -1, 255},  // hardly seen
+                         Row{{0.05f, 0.05f, 0.9f}, 67, 169},  // BetP 1/2: 1 + 98 · 0.304/0.454, 1 + 251 · 0.304/0.454
+                         Row{{1, 0, 0}, 0, 0}, Row{{0.81f, 0.19f, 0}, 0, 0}, Row{{0.803f, 0.197f, 0}, 1, 2},
+                         Row{{0.351f, 0.649f, 0}, 99, 251}, Row{{0.34f, 0.66f, 0}, 100, 254}, Row{{0, 1, 0}, 100, 254},
+                         Row{{0, 0.4f, 0.6f}, 100, 254}}) {
+    EXPECT_EQ(occupancy_of(c, row.m), row.occupancy) << row.m.e << ' ' << row.m.o;
+    EXPECT_EQ(cost_of(c, row.m), row.cost) << row.m.e << ' ' << row.m.o;
+  }
+}
+
+TEST(Costmap, RendersIntoTheHostsBufferAndNothingBeside) {
+  Fed f = fresh();
+  see(f, 2);
+  see(f, 1.5f);
+  const CellRect rect{-3, -20, 50, 40};
+  const std::ptrdiff_t stride = 55;
+  std::vector<std::int8_t> grid(static_cast<std::size_t>(stride) * 40, 77);
+  std::vector<std::uint8_t> costs(grid.size(), 77);
+  f.map.render(Costmap{}, rect, grid, stride);
+  f.map.render(Costmap{}, rect, costs, stride);
+  int lethal = 0, none = 0, free = 0;
+  for (std::int64_t y = 0; y < rect.height; ++y) {
+    for (std::int64_t x = 0; x < stride; ++x) {
+      const auto i = static_cast<std::size_t>(y * stride + x);
+      if (x >= rect.width) {
+        ASSERT_EQ(grid[i], 77);
+        ASSERT_EQ(costs[i], 77);
+        continue;
+      }
+      const Mass m = f.map.mass({rect.x + x, rect.y + y});
+      ASSERT_EQ(grid[i], occupancy_of({}, m));
+      ASSERT_EQ(costs[i], cost_of({}, m));
+      lethal += costs[i] == 254, none += costs[i] == 255, free += costs[i] == 0;
+      ASSERT_EQ(costs[i] == 254, grid[i] == 100);
+      ASSERT_EQ(costs[i] == 255, grid[i] == -1);
+      ASSERT_NE(costs[i], 253);
+    }
+  }
+  EXPECT_GT(lethal, 0);
+  EXPECT_GT(none, 0);
+  EXPECT_GT(free, 0);
+  EXPECT_THROW(f.map.render(Costmap{.free_below = 0.7}, rect, costs, stride), std::invalid_argument);
+  EXPECT_THROW(f.map.render(Costmap{.lethal_above = 1.1}, rect, grid, stride), std::invalid_argument);
+  EXPECT_THROW(f.map.render(Costmap{}, rect, costs, 49), std::invalid_argument);
+}
+
 TEST(Map, BatchesAreTheSameAsSingleScans) {
   Fed a = fresh(), b = fresh();
   std::vector<float> ranges;

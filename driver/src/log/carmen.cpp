@@ -11,34 +11,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
-#include "log/line_reader.hpp"
-#include "log/readers.hpp"
+#include "log/fields.hpp"
+#include "log/formats.hpp"
 
 namespace evigrid::driver {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180;
 constexpr double kMaxBeams = 1e6;
 constexpr std::size_t kHead = 2, kPoses = 6, kTail = 3;  // FLASER n; two poses; ipc_time host logger_time
 
-struct Malformed {
-  const char* reason;
-  std::string detail;
-};
-
-double number(const std::vector<std::string_view>& tokens, std::size_t at) {
-  double value = 0;
-  if (!parse_number(tokens[at], value)) {
-    throw Malformed{"bad number", fmt::format("field {} is '{}'", at + 1, tokens[at].substr(0, 24))};
-  }
-  return value;
-}
-
 /// A count field: a whole number within reason.
-std::size_t count(const std::vector<std::string_view>& tokens, std::size_t at, double least) {
+std::size_t count(const Tokens& tokens, std::size_t at, double least) {
   const double value = number(tokens, at);
   if (!(value >= least && value <= kMaxBeams) || value != std::floor(value)) {
     throw Malformed{"wrong count",
@@ -51,29 +36,6 @@ void expect_fields(std::size_t got, std::size_t wanted, std::size_t beams) {
   if (got == wanted) return;
   throw Malformed{got < wanted ? "too short" : "wrong count",
                   fmt::format("{} fields, {} beams need {}", got, beams, wanted)};
-}
-
-std::int64_t stamp_ns(double seconds) {
-  if (!(std::abs(seconds) < 9e9)) throw Malformed{"bad number", "the time stamp is no time"};
-  return std::llround(seconds * 1e9);
-}
-
-std::size_t sensor_index(Log& log, std::string_view kind, const Sensor& wanted) {
-  for (std::size_t i = 0; i < log.sensors.size(); ++i) {
-    const Sensor& s = log.sensors[i].sensor;
-    if (log.sensors[i].kind == kind && s.beams == wanted.beams && s.first_beam_rad == wanted.first_beam_rad &&
-        s.beam_step_rad == wanted.beam_step_rad && s.no_return_m == wanted.no_return_m) {
-      return i;
-    }
-  }
-  log.sensors.push_back({std::string(kind), wanted});
-  return log.sensors.size() - 1;
-}
-
-void append(Log& log, std::size_t sensor, std::int64_t stamp, const Pose2& pose, std::span<const float> ranges_m) {
-  log.scans.push_back({stamp, pose, log.readings.size(), 1});
-  log.readings.push_back({sensor, log.ranges_m.size(), ranges_m.size()});
-  log.ranges_m.insert(log.ranges_m.end(), ranges_m.begin(), ranges_m.end());
 }
 
 double flaser_step_rad(std::size_t n) {
@@ -100,12 +62,12 @@ void require_usable(const Sensor& sensor) {
   }
 }
 
-void ranges(const std::vector<std::string_view>& t, std::size_t first, std::size_t n, std::vector<float>& out) {
+void ranges(const Tokens& t, std::size_t first, std::size_t n, std::vector<float>& out) {
   out.clear();
   for (std::size_t i = 0; i < n; ++i) out.push_back(static_cast<float>(number(t, first + i)));
 }
 
-void read_flaser(const std::vector<std::string_view>& t, Log& log, std::vector<float>& scratch) {
+void read_flaser(const Tokens& t, Log& log, std::vector<float>& scratch) {
   if (t.size() < kHead) throw Malformed{"too short", "no number of beams"};
   const std::size_t n = count(t, 1, 2);
   expect_fields(t.size(), kHead + n + kPoses + kTail, n);
@@ -115,10 +77,10 @@ void read_flaser(const std::vector<std::string_view>& t, Log& log, std::vector<f
   const std::int64_t stamp = stamp_ns(number(t, p + kPoses));
   const Sensor sensor = fan(n, -90 * kDeg, flaser_step_rad(n));
   require_usable(sensor);
-  append(log, sensor_index(log, t[0], sensor), stamp, pose, scratch);
+  append_fan(log, sensor_index(log, t[0], sensor), stamp, pose, scratch);
 }
 
-void read_robotlaser(const std::vector<std::string_view>& t, Log& log, std::vector<float>& scratch) {
+void read_robotlaser(const Tokens& t, Log& log, std::vector<float>& scratch) {
   constexpr std::size_t kCount = 8, kAfterPoses = 5;
   if (t.size() <= kCount) throw Malformed{"too short", fmt::format("{} fields", t.size())};
   const std::size_t n = count(t, kCount, 2);
@@ -140,23 +102,18 @@ void read_robotlaser(const std::vector<std::string_view>& t, Log& log, std::vect
   if (clockwise) std::reverse(scratch.begin(), scratch.end());
   const Pose2 pose{number(t, p), number(t, p + 1), number(t, p + 2)};
   const std::int64_t stamp = stamp_ns(number(t, p + kPoses + kAfterPoses));
-  append(log, sensor_index(log, t[0], sensor), stamp, pose, scratch);
+  append_fan(log, sensor_index(log, t[0], sensor), stamp, pose, scratch);
 }
 
-}  // namespace
+bool looks_like_carmen(const FirstLine& line) {
+  static constexpr std::string_view kKeywords[] = {"FLASER", "RLASER", "ROBOTLASER1", "ROBOTLASER2", "ODOM",
+                                                   "PARAM",  "NEFF",   "TRUEPOS",     "SYNC",        "RAWLASER1"};
+  return std::find(std::begin(kKeywords), std::end(kKeywords), line.blanks[0]) != std::end(kKeywords);
+}
 
-void read_carmen(const std::string& path, Log& log) {
-  LineReader lines(path);
-  std::string_view line;
-  std::vector<std::string_view> tokens;
+void read_carmen_file(const Source& source, Log& log) {
   std::vector<float> scratch;
-  while (lines.next(line)) {
-    if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
-    if (line.front() == '#') {
-      log.skip("#");
-      continue;
-    }
-    split(line, tokens);
+  for_each_record(source, ' ', kMostFields, log, [&](const Tokens& tokens, std::size_t) {
     try {
       if (tokens[0] == "FLASER" || tokens[0] == "RLASER") {
         read_flaser(tokens, log, scratch);
@@ -166,9 +123,9 @@ void read_carmen(const std::string& path, Log& log) {
         log.skip(tokens[0]);  // ODOM too: the poses of the scans are what a map needs
       }
     } catch (const Malformed& bad) {
-      log.reject(path, lines.line_number(), bad.reason, fmt::format("{}: {}", tokens[0], bad.detail));
+      throw Malformed{bad.reason, fmt::format("{}: {}", tokens[0], bad.detail)};
     }
-  }
+  });
 }
 
 // Loggers write "no return" as the scanner's largest number (81.83, 81.91, 50, 32.767 ...), and some as several codes
@@ -205,5 +162,16 @@ void find_no_return(Log& log) {
     }
   }
 }
+
+void read_carmen(std::span<const Source> sources, Log& log) {
+  for (const Source& source : sources) read_carmen_file(source, log);
+  find_no_return(log);
+}
+
+}  // namespace
+
+const Format kCarmen{
+    "carmen",   "CARMEN text log (FLASER, RLASER, ROBOTLASER1 and 2)", looks_like_carmen, nullptr, nullptr, 4096,
+    read_carmen};
 
 }  // namespace evigrid::driver

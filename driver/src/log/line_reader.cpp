@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -18,14 +19,21 @@ namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 18;
 constexpr std::size_t kMaxLine = std::size_t{1} << 24;  // 16 MiB: a fan of a million beams
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
 struct LineReader::Impl {
   gzFile file = nullptr;
+  std::string_view memory;  ///< what is left of it
 };
 
-LineReader::LineReader(const std::string& path) : impl_(std::make_unique<Impl>()), path_(path), buffer_(kChunk) {
+LineReader::LineReader(const Source& source) : impl_(std::make_unique<Impl>()), path_(source.name), buffer_(kChunk) {
+  if (source.bytes) {
+    impl_->memory = *source.bytes;
+    return;
+  }
+  const std::string& path = path_;
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw InputError(fmt::format("{}: no such file", path));
@@ -51,20 +59,30 @@ bool LineReader::fill() {
       throw InputError(fmt::format("{}:{}: not a text log: a line of over 16 MiB", path_, line_ + 1));
     buffer_.resize(buffer_.size() * 2);
   }
+  const std::size_t got = read_some(buffer_.data() + end_, buffer_.size() - end_);
+  if (got == 0) ended_ = true;
+  if (std::memchr(buffer_.data() + end_, '\0', got) != nullptr) {
+    throw InputError(fmt::format("{}: not a text log: it holds binary data", path_));
+  }
+  end_ += got;
+  return got > 0;
+}
+
+std::size_t LineReader::read_some(char* to, std::size_t most) {
+  if (impl_->file == nullptr) {
+    const std::size_t n = impl_->memory.copy(to, most);
+    impl_->memory.remove_prefix(n);
+    return n;
+  }
   errno = 0;
-  const int got = gzread(impl_->file, buffer_.data() + end_, static_cast<unsigned>(buffer_.size() - end_));
+  const int got = gzread(impl_->file, to, static_cast<unsigned>(most));
   int code = Z_OK;
   const char* message = gzerror(impl_->file, &code);
   if (code == Z_BUF_ERROR) throw InputError(fmt::format("{}: truncated: the gzip stream ends too early", path_));
   if (got < 0 || (code != Z_OK && code != Z_STREAM_END)) {
     throw InputError(fmt::format("{}: cannot be read: {}", path_, code == Z_ERRNO ? std::strerror(errno) : message));
   }
-  if (got == 0) ended_ = true;
-  if (std::memchr(buffer_.data() + end_, '\0', static_cast<std::size_t>(got)) != nullptr) {
-    throw InputError(fmt::format("{}: not a text log: it holds binary data", path_));
-  }
-  end_ += static_cast<std::size_t>(got);
-  return got > 0;
+  return static_cast<std::size_t>(got);
 }
 
 bool LineReader::next(std::string_view& line) {
@@ -87,17 +105,32 @@ bool LineReader::next(std::string_view& line) {
     searched = begin_ + seen;
   }
   ++line_;
+  if (line_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return true;
 }
 
-void split(std::string_view line, std::vector<std::string_view>& tokens) {
+void split(std::string_view line, std::vector<std::string_view>& tokens, std::size_t most) {
   tokens.clear();
   std::size_t at = 0;
-  while ((at = line.find_first_not_of(" \t", at)) != std::string_view::npos) {
+  while (tokens.size() <= most && (at = line.find_first_not_of(" \t", at)) != std::string_view::npos) {
     const std::size_t stop = std::min(line.find_first_of(" \t", at), line.size());
     tokens.push_back(line.substr(at, stop - at));
     at = stop;
+  }
+}
+
+void split_commas(std::string_view line, std::vector<std::string_view>& tokens, std::size_t most) {
+  tokens.clear();
+  for (std::size_t at = 0; tokens.size() <= most;) {
+    const std::size_t comma = std::min(line.find(',', at), line.size());
+    std::string_view field = line.substr(at, comma - at);
+    const std::size_t from = std::min(field.find_first_not_of(" \t"), field.size());
+    field.remove_prefix(from);
+    field.remove_suffix(field.size() - (field.find_last_not_of(" \t") + 1));
+    tokens.push_back(field);
+    if (comma == line.size()) break;
+    at = comma + 1;
   }
 }
 

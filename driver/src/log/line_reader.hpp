@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of a text file, plain or gzip, in bounded memory. Damage is an error and never a short file: a gzip stream cut
-// off in the middle or with a wrong checksum throws InputError naming the file, as do binary contents.
+// Lines of a text file, plain or gzip, or of text in memory, in bounded memory. Damage is an error and never a short
+// file: a gzip stream cut off in the middle or with a wrong checksum throws InputError naming the file, as do binary
+// contents. A byte-order mark of UTF-8 is no part of the first line.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -8,12 +9,15 @@
 #include <string_view>
 #include <vector>
 
+#include "log/source.hpp"
+
 namespace evigrid::driver {
 
 class LineReader {
  public:
   /// Throws InputError when the file is missing, a folder, or cannot be opened.
-  explicit LineReader(const std::string& path);
+  explicit LineReader(const std::string& path) : LineReader(Source{path}) {}
+  explicit LineReader(const Source& source);
   ~LineReader();
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
@@ -25,6 +29,7 @@ class LineReader {
 
  private:
   bool fill();
+  std::size_t read_some(char* to, std::size_t most);
   struct Impl;
   std::unique_ptr<Impl> impl_;
   std::string path_;
@@ -33,8 +38,15 @@ class LineReader {
   bool ended_ = false;
 };
 
-/// Splits at blanks and tabs into `tokens`, which is reused.
-void split(std::string_view line, std::vector<std::string_view>& tokens);
+/// More fields than any record has: a line of millions of them must not become millions of views.
+inline constexpr std::size_t kMostFields = (std::size_t{1} << 21) + 64;
+
+/// Splits at blanks and tabs into `tokens`, which is reused. Fields beyond `most` + 1 are left out: enough to see that
+/// there are too many.
+void split(std::string_view line, std::vector<std::string_view>& tokens, std::size_t most = kMostFields);
+
+/// Splits at commas; blanks and tabs around a field are no part of it, an empty field is one.
+void split_commas(std::string_view line, std::vector<std::string_view>& tokens, std::size_t most = kMostFields);
 
 /// The whole token as a number ("nan" and "inf" are numbers), locale-independent; false otherwise.
 bool parse_number(std::string_view token, double& value);

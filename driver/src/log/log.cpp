@@ -11,17 +11,36 @@ constexpr std::size_t kMaxKeywords = 64;
 constexpr std::size_t kMaxWarnings = 10;
 constexpr std::size_t kMaxKeywordLength = 24;
 
-/// Reports are JSON and terminals are fragile: only printable ASCII goes into either.
+}  // namespace
+
 std::string printable(std::string_view text) {
   std::string out;
-  for (const char c : text.substr(0, kMaxKeywordLength)) out += (c >= ' ' && c <= '~') ? c : '?';
+  for (const char c : text) out += (c >= ' ' && c <= '~') ? c : '?';
   return out;
 }
 
-}  // namespace
+std::string_view name(Poses poses) {
+  switch (poses) {
+    case Poses::recorded:
+      return "recorded";
+    case Poses::dead_reckoned:
+      return "dead reckoning";
+    case Poses::none:
+      return "none: the robot stands at the origin";
+    case Poses::one_dimension:
+      return "along a line";
+  }
+  return "";
+}
+
+std::uint64_t Log::malformed_total() const {
+  std::uint64_t n = 0;
+  for (const auto& [reason, times] : malformed) n += times;
+  return n;
+}
 
 void Log::skip(std::string_view keyword) {
-  std::string key = printable(keyword);
+  std::string key = printable(keyword.substr(0, kMaxKeywordLength));
   if (skipped.size() >= kMaxKeywords && !skipped.contains(key)) key = "(other)";
   ++skipped[key];
 }

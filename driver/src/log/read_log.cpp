@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which format a path holds. A folder or a pair of files is a ring; a single file tells by its first record: CARMEN
-// starts with a word, the ring with a number.
+// Which format a log holds, and its reading. A folder tells by the names of its files, a file by its first lines: the
+// first line that any format knows decides, so that one damaged record does not.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "error.hpp"
+#include "log/formats.hpp"
 #include "log/line_reader.hpp"
 #include "log/readers.hpp"
 
@@ -15,77 +16,104 @@ namespace evigrid::driver {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kPoses = "poses.txt";
-constexpr const char* kMeasurements = "measurement.txt";
+constexpr int kLinesTried = 200;
+constexpr std::size_t kFieldsTried = 512, kShown = 60;
 
-/// Fields of the first record when it starts with a number, else 0.
-std::size_t numeric_columns(const std::string& path) {
-  LineReader lines(path);
-  std::string_view line;
-  std::vector<std::string_view> tokens;
-  double ignored = 0;
-  while (lines.next(line)) {
-    split(line, tokens);
-    if (tokens.empty() || tokens[0].front() == '#') continue;
-    return parse_number(tokens[0], ignored) ? tokens.size() : 0;
-  }
-  return 0;
+std::string known_names() {
+  std::string out;
+  for (const Format* format : all_formats()) out += (out.empty() ? "" : ", ") + std::string(format->name);
+  return out;
 }
 
-std::string detect(const std::vector<std::string>& paths) {
-  if (fs::is_directory(paths.front())) return "ring8";
-  const std::size_t columns = numeric_columns(paths.front());
-  return columns == 4 || columns == 9 ? "ring8" : "carmen";
+const Format& format_of_lines(const Source& source) {
+  LineReader lines(source);
+  FirstLine line;
+  std::string first;
+  for (int tried = 0; tried < kLinesTried && lines.next(line.text);) {
+    split(line.text, line.blanks, kFieldsTried);
+    if (line.blanks.empty() || line.blanks[0].front() == '#') continue;
+    split_commas(line.text, line.commas, kFieldsTried);
+    if (tried++ == 0) first = printable(line.text.substr(0, kShown));
+    for (const Format* format : all_formats()) {
+      if (format->looks(line)) return *format;
+    }
+  }
+  if (first.empty()) {
+    throw InputError(fmt::format("no usable record in {}: it is empty or holds comments alone", source.name));
+  }
+  throw InputError(fmt::format("{}: looks like none of: {}; first line is '{}'; --format can name one", source.name,
+                               known_names(), first));
 }
 
-/// The two files of a ring from whatever the user named: the folder, one file, or both in any order.
-std::pair<std::string, std::string> ring_files(const std::vector<std::string>& paths) {
-  if (paths.size() > 2) throw InputError("format ring8 takes a folder, one file or two files");
-  if (paths.size() == 2) {
-    const bool swapped = fs::path(paths[0]).filename() == kMeasurements || numeric_columns(paths[0]) == 9;
-    return swapped ? std::pair{paths[1], paths[0]} : std::pair{paths[0], paths[1]};
+const Format& format_of_folder(const fs::path& folder) {
+  for (const Format* format : all_formats()) {
+    if (format->owns != nullptr && format->owns(folder)) return *format;
   }
-  const fs::path given = paths.front();
-  const fs::path folder = fs::is_directory(given) ? given : given.parent_path();
-  if (fs::is_directory(given)) return {(folder / kPoses).string(), (folder / kMeasurements).string()};
-  if (numeric_columns(given.string()) == 4) return {given.string(), (folder / kMeasurements).string()};
-  return {(folder / kPoses).string(), given.string()};
+  throw InputError(
+      fmt::format("{}: is a folder without a log that is one: neither poses.txt and measurement.txt "
+                  "(ring8) nor *scan.txt and *motors.txt (lego)",
+                  folder.string()));
+}
+
+const Format& format_named(const std::string& name) {
+  for (const Format* format : all_formats()) {
+    if (name == format->name) return *format;
+  }
+  throw InputError(fmt::format("--format: '{}' is unknown; known: {}", name, fmt::join(log_formats(), ", ")));
+}
+
+Log read(const Format& format, std::span<const Source> sources) {
+  if (sources.size() > format.most_files) {
+    throw InputError(fmt::format("format {} takes at most {} file{}, {} are named", format.name, format.most_files,
+                                 format.most_files == 1 ? "" : "s", sources.size()));
+  }
+  Log log;
+  log.format = format.name;
+  format.read(sources, log);
+  if (!log.scans.empty()) return log;
+  std::string names;
+  for (const Source& source : sources) names += (names.empty() ? "" : ", ") + source.name;
+  throw InputError(fmt::format("no usable record in {}: read as {}, {} kinds of other records, {} malformed{}", names,
+                               log.format, log.skipped.size(), log.malformed_total(),
+                               log.warnings.empty() ? "" : "; first: " + log.warnings.front()));
 }
 
 }  // namespace
 
 const std::vector<std::string>& log_formats() {
-  static const std::vector<std::string> names{"auto", "carmen", "ring8"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> out{"auto"};
+    for (const Format* format : all_formats()) out.emplace_back(format->name);
+    return out;
+  }();
   return names;
 }
 
-Log read_log(const std::vector<std::string>& paths, const std::string& format) {
+std::string describe_formats() {
+  std::string out;
+  for (const Format* format : all_formats()) out += fmt::format("  {:<12}{}\n", format->name, format->what);
+  return out;
+}
+
+Log read_log(const std::vector<std::string>& paths, const std::string& name) {
   if (paths.empty()) throw InputError("no log file named");
-  Log log;
-  log.format = format == "auto" ? detect(paths) : format;
-  if (log.format == "ring8") {
-    const auto [poses, measurements] = ring_files(paths);
-    read_ring8(poses, measurements, log);
-  } else if (log.format == "carmen") {
-    for (const std::string& path : paths) read_carmen(path, log);
-    find_no_return(log);
-  } else {
-    throw InputError(fmt::format("--format: '{}' is unknown; known: {}", format, fmt::join(log_formats(), ", ")));
+  const bool look = name == "auto";
+  const Format& format = !look                             ? format_named(name)
+                         : fs::is_directory(paths.front()) ? format_of_folder(paths.front())
+                                                           : format_of_lines(Source{paths.front()});
+  if (format.gather != nullptr) return read(format, format.gather(paths));
+  std::vector<Source> sources;
+  for (const std::string& path : paths) sources.push_back({path});
+  return read(format, sources);
+}
+
+Log read_log_bytes(const std::string& name, std::span<const std::string_view> files) {
+  if (files.empty()) throw InputError("no log file named");
+  std::vector<Source> sources;
+  for (const std::string_view bytes : files) {
+    sources.push_back({fmt::format("(bytes {})", sources.size() + 1), bytes});
   }
-  if (log.scans.empty()) {
-    std::string why;
-    if (!log.warnings.empty()) why = "; first: " + log.warnings.front();
-    throw InputError(fmt::format(
-        "no usable record in {}: read as {}, {} kinds of other records, {} malformed{}", fmt::join(paths, ", "),
-        log.format, log.skipped.size(),
-        [&] {
-          std::uint64_t n = 0;
-          for (const auto& [reason, times] : log.malformed) n += times;
-          return n;
-        }(),
-        why));
-  }
-  return log;
+  return read(name == "auto" ? format_of_lines(sources.front()) : format_named(name), sources);
 }
 
 }  // namespace evigrid::driver

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formats that `map` reads, and telling them apart.
+// Reading a log of any known format, from files or from memory. The formats themselves: formats.hpp.
 #pragma once
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "log/log.hpp"
@@ -11,17 +13,14 @@ namespace evigrid::driver {
 /// Names of --format, "auto" first.
 const std::vector<std::string>& log_formats();
 
+/// One line a format, for help texts: "  name  what it is".
+std::string describe_formats();
+
 /// Reads one or more paths of a format ("auto" looks). Throws InputError naming the file for anything unreadable, and
 /// when no record of it can be used.
 Log read_log(const std::vector<std::string>& paths, const std::string& format);
 
-/// CARMEN text logs, appended to `log` in line order: carmen.cpp.
-void read_carmen(const std::string& path, Log& log);
-
-/// Sets each fan's no_return_m from the log's own largest ranges and turns absurd ranges into NaN: carmen.cpp.
-void find_no_return(Log& log);
-
-/// The ring of eight sonars: one file of poses, one of measurements, matched by time stamp: ring8.cpp.
-void read_ring8(const std::string& poses_path, const std::string& measurements_path, Log& log);
+/// The same from memory: plain text, one span for each file of the log (ring8: poses, then measurements).
+Log read_log_bytes(const std::string& format, std::span<const std::string_view> files);
 
 }  // namespace evigrid::driver

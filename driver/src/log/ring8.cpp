@@ -5,53 +5,41 @@
 // A measurement belongs to the pose with its time stamp: normally the same line, otherwise wherever it is.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
+#include <filesystem>
 #include <limits>
-#include <numbers>
 #include <unordered_map>
 
-#include "log/line_reader.hpp"
-#include "log/readers.hpp"
+#include "error.hpp"
+#include "log/fields.hpp"
+#include "log/formats.hpp"
 
 namespace evigrid::driver {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180;
-constexpr int kSonars = 8;
+namespace fs = std::filesystem;
+constexpr std::size_t kSonars = 8;
 constexpr double kBearing_rad[kSonars] = {-90 * kDeg, -37.5 * kDeg, -22.5 * kDeg, -7.5 * kDeg,
                                           7.5 * kDeg, 22.5 * kDeg,  37.5 * kDeg,  90 * kDeg};
 constexpr double kNoEcho_mm = 5110;
 
-/// Reads rows of `width` numbers; calls row(line, values) for each good one and counts the others.
+constexpr double kMostMilliseconds = 9e12;
+constexpr const char* kPosesFile = "poses.txt";
+constexpr const char* kMeasurementsFile = "measurement.txt";
+constexpr std::size_t kPoseFields = 4, kMeasurementFields = 1 + kSonars;
+
+/// Reads rows of `width` numbers; calls row(values) for each good one and counts the others.
 template <class Row>
-void for_each_row(const std::string& path, std::size_t width, Log& log, Row row) {
-  LineReader lines(path);
-  std::string_view line;
-  std::vector<std::string_view> tokens;
+void for_each_row(const Source& source, std::size_t width, Log& log, Row row) {
   std::vector<double> values(width);
-  while (lines.next(line)) {
-    split(line, tokens);
-    if (tokens.empty()) continue;
-    if (tokens[0].front() == '#') {
-      log.skip("#");
-      continue;
-    }
-    if (tokens.size() != width) {
-      log.reject(path, lines.line_number(), tokens.size() < width ? "too short" : "wrong count",
-                 fmt::format("{} fields, need {}", tokens.size(), width));
-      continue;
-    }
-    std::size_t at = 0;
-    while (at < width && parse_number(tokens[at], values[at])) ++at;
-    if (at < width || !(std::abs(values[0]) < 9e12)) {
-      at = at < width ? at : 0;
-      log.reject(path, lines.line_number(), "bad number",
-                 fmt::format("field {} is '{}'", at + 1, tokens[at].substr(0, 24)));
-      continue;
-    }
-    row(lines.line_number(), values);
-  }
+  for_each_record(source, ' ', width, log, [&](const Tokens& tokens, std::size_t) {
+    expect_fields(tokens.size(), width);
+    for (std::size_t at = 0; at < width; ++at) values[at] = number(tokens, at);
+    if (!(std::abs(values[0]) < kMostMilliseconds)) throw Malformed{"bad number", "the time stamp is no time"};
+    row(values);
+  });
 }
 
 void add_sonars(Log& log) {
@@ -67,42 +55,83 @@ void add_sonars(Log& log) {
   }
 }
 
-float range_m(double mm, Log& log) {
-  if (mm == kNoEcho_mm) return std::numeric_limits<float>::infinity();
-  if (std::isfinite(mm) && mm / 1000 > kAbsurdRange_m) {
-    ++log.absurd_ranges;
-    return std::numeric_limits<float>::quiet_NaN();
-  }
-  return static_cast<float>(mm / 1000);
+bool looks_like_ring8(const FirstLine& line) {
+  double ignored = 0;
+  const bool width = line.blanks.size() == kPoseFields || line.blanks.size() == kMeasurementFields;
+  return width && std::all_of(line.blanks.begin(), line.blanks.end(),
+                              [&](std::string_view token) { return parse_number(token, ignored); });
 }
 
-}  // namespace
+/// Fields of the first record when it starts with a number, else 0.
+std::size_t numeric_columns(const std::string& path) {
+  LineReader lines(path);
+  std::string_view line;
+  Tokens tokens;
+  double ignored = 0;
+  while (lines.next(line)) {
+    split(line, tokens, kMeasurementFields);
+    if (tokens.empty() || tokens[0].front() == '#') continue;
+    return parse_number(tokens[0], ignored) ? tokens.size() : 0;
+  }
+  return 0;
+}
 
-void read_ring8(const std::string& poses_path, const std::string& measurements_path, Log& log) {
+/// The two files of a ring from whatever the user named: the folder, one file, or both in any order.
+std::vector<Source> ring_files(const std::vector<std::string>& paths) {
+  if (paths.size() > 2) throw InputError("format ring8 takes a folder, one file or two files");
+  if (paths.size() == 2) {
+    const bool swapped =
+        fs::path(paths[0]).filename() == kMeasurementsFile || numeric_columns(paths[0]) == kMeasurementFields;
+    return swapped ? std::vector<Source>{{paths[1]}, {paths[0]}} : std::vector<Source>{{paths[0]}, {paths[1]}};
+  }
+  const fs::path given = paths.front();
+  const fs::path folder = fs::is_directory(given) ? given : given.parent_path();
+  std::string poses = (folder / kPosesFile).string(), measurements = (folder / kMeasurementsFile).string();
+  if (!fs::is_directory(given)) {
+    (numeric_columns(given.string()) == kPoseFields ? poses : measurements) = given.string();
+  }
+  return {{poses}, {measurements}};
+}
+
+bool ring_folder(const fs::path& folder) {
+  return fs::exists(folder / kPosesFile) || fs::exists(folder / kMeasurementsFile);
+}
+
+/// A reading as the log will hold it.
+float reading_m(double mm, Log& log) {
+  return mm == kNoEcho_mm ? std::numeric_limits<float>::infinity() : range_m(mm / 1000, log);
+}
+
+void read_ring8(std::span<const Source> sources, Log& log) {
+  if (sources.size() != 2) throw InputError("format ring8 needs two files: poses and measurements");
   std::unordered_map<std::int64_t, std::deque<Pose2>> poses;  // a stamp may occur twice: first come, first served
-  std::size_t pose_rows = 0;
-  for_each_row(poses_path, 4, log, [&](std::size_t, const std::vector<double>& v) {
+  std::size_t pose_rows = 0, matched = 0;
+  for_each_row(sources[0], kPoseFields, log, [&](const std::vector<double>& v) {
     poses[std::llround(v[0])].push_back({v[1] / 1000, v[2] / 1000, v[3] / 10 * kDeg});
     ++pose_rows;
   });
   add_sonars(log);
-  std::size_t matched = 0;
-  for_each_row(measurements_path, 1 + kSonars, log, [&](std::size_t line, const std::vector<double>& v) {
+  std::vector<float> ranges(kSonars);
+  for_each_row(sources[1], kMeasurementFields, log, [&](const std::vector<double>& v) {
     const std::int64_t stamp_ms = std::llround(v[0]);
     const auto found = poses.find(stamp_ms);
     if (found == poses.end() || found->second.empty()) {
-      log.reject(measurements_path, line, "no pose", fmt::format("no pose has the time stamp {}", stamp_ms));
-      return;
+      throw Malformed{"no pose", fmt::format("no pose has the time stamp {}", stamp_ms)};
     }
-    log.scans.push_back({stamp_ms * 1'000'000, found->second.front(), log.readings.size(), kSonars});
+    for (std::size_t i = 0; i < kSonars; ++i) ranges[i] = reading_m(v[1 + i], log);
+    append_cones(log, 0, stamp_ms * 1'000'000, found->second.front(), ranges);
     found->second.pop_front();
-    for (std::size_t i = 0; i < kSonars; ++i) {
-      log.readings.push_back({i, log.ranges_m.size(), 1});
-      log.ranges_m.push_back(range_m(v[1 + i], log));
-    }
     ++matched;
   });
   if (pose_rows > matched) log.malformed["no measurement"] += pose_rows - matched;
 }
+
+}  // namespace
+
+const Format kRing8{
+    "ring8",          "ring of eight sonars: a folder with poses.txt and measurement.txt, or either file",
+    looks_like_ring8, ring_folder,
+    ring_files,       2,
+    read_ring8};
 
 }  // namespace evigrid::driver

@@ -5,27 +5,60 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
+#include <iterator>
 
 #include "error.hpp"
+#include "out/costmap.hpp"
 
 namespace evigrid::driver {
 
 static_assert(std::endian::native == std::endian::little, "masses.npy is written as the memory holds it");
 
-void require_dense_fits(const CellRect& rect, int cap_mb) {
-  constexpr double kBytesPerCell = 4 * sizeof(float) + 1 + 3;  // the masses, map.pgm, map.png
-  const double need_mb = static_cast<double>(rect.width) * static_cast<double>(rect.height) * kBytesPerCell / 1e6;
-  if (need_mb <= cap_mb) return;
+void require_fits(std::string_view name, std::string_view size, double bytes, int cap_mb) {
+  if (bytes <= cap_mb * 1e6) return;
   throw InputError(
-      fmt::format("masses.npy, map.pgm and map.png refused: {} x {} cells need {:.0f} MB, more than --max-image-mb {}",
-                  rect.width, rect.height, need_mb, cap_mb));
+      fmt::format("{} refused: {} need {:.0f} MB, more than --max-image-mb {}", name, size, bytes / 1e6, cap_mb));
+}
+
+namespace {
+
+double cells_of(const CellRect& rect) { return static_cast<double>(rect.width) * static_cast<double>(rect.height); }
+std::string size_of(const CellRect& rect) { return fmt::format("{} x {} cells", rect.width, rect.height); }
+constexpr double kPlaneBytes = 4 * sizeof(float);
+
+constexpr std::string_view kModeNames[] = {"trinary", "scale", "raw"};  // in the order of PgmMode
+
+std::uint8_t pixel(const Layers& l, std::size_t i, PgmMode mode) {
+  const double betp = l.o()[i] + 0.5 * l.u()[i];
+  switch (mode) {
+    case PgmMode::trinary:
+      return betp > kOccupiedThreshold ? 0 : betp < kFreeThreshold ? 254 : 205;
+    case PgmMode::scale:
+      return static_cast<std::uint8_t>(std::lround(255 * (1 - betp)));
+    case PgmMode::raw:
+      break;
+  }
+  return l.u()[i] == 1 ? 255 : static_cast<std::uint8_t>(std::lround(100 * betp));
+}
+
+}  // namespace
+
+void require_dense_fits(const CellRect& rect, int cap_mb) {
+  require_fits("masses.npy and map.pgm", size_of(rect), cells_of(rect) * (kPlaneBytes + 1), cap_mb);
 }
 
 Layers render_layers(const Map& map, int cap_mb) {
+  const CellRect rect = map.bounds();
+  require_dense_fits(rect, cap_mb);
+  return render_layers(map, rect, "masses.npy", cap_mb);
+}
+
+Layers render_layers(const Map& map, const CellRect& rect, std::string_view name, int cap_mb) {
+  require_fits(name, size_of(rect), cells_of(rect) * kPlaneBytes, cap_mb);
   Layers out;
-  out.rect = map.bounds();
+  out.rect = rect;
   out.cell_m = map.params().cell_m;
-  require_dense_fits(out.rect, cap_mb);
   const std::size_t n = out.cells();
   out.planes.resize(4 * n);
   constexpr Layer kOrder[] = {Layer::empty, Layer::bel, Layer::unknown, Layer::conflict};
@@ -36,38 +69,34 @@ Layers render_layers(const Map& map, int cap_mb) {
 }
 
 std::string npy_head(const Layers& layers) {
-  std::string dict = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': (4, {}, {}), }}",
-                                 layers.rect.height, layers.rect.width);
-  constexpr std::size_t kFixed = 10, kAlign = 64;  // magic, version, length; data starts at a multiple of 64
-  const std::size_t total = (kFixed + dict.size() + 1 + kAlign - 1) / kAlign * kAlign;
-  dict.resize(total - kFixed - 1, ' ');
-  dict += '\n';
-  std::string head("\x93NUMPY\x01\x00", 8);
-  head += static_cast<char>(dict.size() & 0xFF);
-  head += static_cast<char>(dict.size() >> 8);
-  return head + dict;
+  return npy_head("<f4", fmt::format("(4, {}, {})", layers.rect.height, layers.rect.width));
 }
 
-std::string pgm(const Layers& layers) {
+PgmMode parse_pgm_mode(const std::string& name) {
+  for (std::size_t i = 0; i < std::size(kModeNames); ++i) {
+    if (name == kModeNames[i]) return static_cast<PgmMode>(i);
+  }
+  throw InputError(fmt::format("--pgm-mode: '{}' is unknown; known: trinary, scale, raw", name));
+}
+
+std::string pgm(const Layers& layers, PgmMode mode) {
   std::string out =
       fmt::format("P5\n# {} m per cell\n{} {}\n255\n", layers.cell_m, layers.rect.width, layers.rect.height);
   for (std::int64_t y = layers.rect.height - 1; y >= 0; --y) {
-    for (std::int64_t x = 0; x < layers.rect.width; ++x) {
-      const auto i = static_cast<std::size_t>(y * layers.rect.width + x);
-      const double betp = layers.o()[i] + 0.5 * layers.u()[i];
-      out += static_cast<char>(betp > kOccupiedThreshold ? 0 : betp < kFreeThreshold ? 254 : 205);
-    }
+    for (std::int64_t x = 0; x < layers.rect.width; ++x)
+      out += static_cast<char>(pixel(layers, static_cast<std::size_t>(y * layers.rect.width + x), mode));
   }
   return out;
 }
 
-std::string map_yaml(const Layers& layers, const std::string& image) {
+std::string map_yaml(const Layers& layers, const std::string& image, PgmMode mode) {
   return fmt::format(
-      "image: {}\nmode: trinary\nresolution: {}\norigin: [{:.10g}, {:.10g}, 0]\nnegate: 0\noccupied_thresh: "
+      "image: {}\nmode: {}\nresolution: {}\norigin: [{:.10g}, {:.10g}, 0]\nnegate: 0\noccupied_thresh: "
       "{}\nfree_thresh: "
       "{}\n",
-      image, layers.cell_m, static_cast<double>(layers.rect.x) * layers.cell_m,
-      static_cast<double>(layers.rect.y) * layers.cell_m, kOccupiedThreshold, kFreeThreshold);
+      image, kModeNames[static_cast<std::size_t>(mode)], layers.cell_m,
+      static_cast<double>(layers.rect.x) * layers.cell_m, static_cast<double>(layers.rect.y) * layers.cell_m,
+      kOccupiedThreshold, kFreeThreshold);
 }
 
 }  // namespace evigrid::driver

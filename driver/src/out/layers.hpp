@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "evigrid/map.hpp"
@@ -23,16 +24,26 @@ struct Layers {
   [[nodiscard]] const float* conflict() const { return planes.data() + 3 * cells(); }
 };
 
-/// Throws InputError naming the size when the planes and the picture would need more than `cap_mb`.
+/// Throws InputError naming the output and its size when that is above `cap_mb`.
+void require_fits(std::string_view name, std::string_view size, double bytes, int cap_mb);
+/// The same for masses.npy and map.pgm of a rectangle.
 void require_dense_fits(const CellRect& rect, int cap_mb);
+/// The planes of the map's bounding box, for the files above.
 Layers render_layers(const Map& map, int cap_mb);
+/// The planes of a rectangle, for the output `name`.
+Layers render_layers(const Map& map, const CellRect& rect, std::string_view name, int cap_mb);
 
 /// Head of a NumPy file (version 1.0) of little-endian float32, shape (4, height, width), C order.
 std::string npy_head(const Layers& layers);
 
-/// ROS map_server, mode trinary: 0 occupied, 254 free, 205 unknown, from BetP = o + u/2.
-std::string pgm(const Layers& layers);
-std::string map_yaml(const Layers& layers, const std::string& image);
+/// How ROS map_server reads an image. trinary: 0 occupied, 254 free, 205 unknown, by the thresholds. scale: the grey is
+/// BetP, white 0, black 1; between the thresholds the loader makes 1 … 99 of it, and a PGM has no way to say unknown
+/// (never seen is 1/2). raw: the byte is the occupancy, 0 … 100 = BetP in per cent, 255 never seen.
+enum class PgmMode { trinary, scale, raw };
+/// Throws InputError naming --pgm-mode.
+PgmMode parse_pgm_mode(const std::string& name);
+std::string pgm(const Layers& layers, PgmMode mode = PgmMode::trinary);
+std::string map_yaml(const Layers& layers, const std::string& image, PgmMode mode = PgmMode::trinary);
 
 inline constexpr double kOccupiedThreshold = 0.65, kFreeThreshold = 0.196;  ///< map_server's usual ones
 

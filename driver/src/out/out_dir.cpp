@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 
 #include "error.hpp"
@@ -96,6 +97,15 @@ void OutDir::write(const std::string& name, std::span<const std::byte> head, std
   stage(path_ / name, head, body);
 }
 
+void OutDir::write_by(const std::string& name, const std::function<void(std::ostream&)>& writer) {
+  stage(path_ / name, {}, {});
+  const auto& [temporary, target] = staged_.back();
+  std::ofstream out(temporary, std::ios::binary);
+  if (out) writer(out);
+  out.close();
+  if (!out) fail(target, "the disk may be full");
+}
+
 void OutDir::write_outside(const std::string& path, std::string_view bytes) {
   stage(fs::absolute(path), bytes_of(bytes), {});
 }
@@ -114,10 +124,12 @@ void OutDir::commit() {
   made_.clear();
 }
 
-void write_file(const std::string& path, std::string_view bytes) {
+void write_file(const std::string& path, std::string_view bytes) { write_file(path, bytes_of(bytes)); }
+
+void write_file(const std::string& path, std::span<const std::byte> bytes) {
   const fs::path target = fs::absolute(path);
   const fs::path temporary = temporary_beside(target);
-  write_all(temporary, path, bytes_of(bytes), {});
+  write_all(temporary, path, bytes, {});
   std::error_code error;
   fs::rename(temporary, target, error);
   if (error) {

@@ -5,6 +5,8 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,6 +25,8 @@ class OutDir {
   /// Writes a whole file under a temporary name. `name` is a plain file name.
   void write(const std::string& name, std::string_view bytes);
   void write(const std::string& name, std::span<const std::byte> head, std::span<const std::byte> body);
+  /// The same, by something that writes into a stream piece by piece.
+  void write_by(const std::string& name, const std::function<void(std::ostream&)>& writer);
 
   /// Also takes a file outside the folder (--json FILE) into the same commit.
   void write_outside(const std::string& path, std::string_view bytes);
@@ -41,6 +45,7 @@ class OutDir {
 
 /// One file, written beside and renamed; throws InputError. For commands whose only output is a file.
 void write_file(const std::string& path, std::string_view bytes);
+void write_file(const std::string& path, std::span<const std::byte> bytes);
 
 /// Throws InputError when `path` cannot become a file: to be asked before long work.
 void require_writable(const std::string& path);

@@ -56,10 +56,21 @@ void Canvas::disc(double x, double y, double radius, Rgb colour) {
   }
 }
 
+void Canvas::ring(double x, double y, double radius, double width, Rgb colour) {
+  if (!(std::abs(x) < 1e6 && std::abs(y) < 1e6)) return;
+  const int r = static_cast<int>(std::ceil(radius)), cx = static_cast<int>(x), cy = static_cast<int>(y);
+  for (int iy = -r; iy <= r; ++iy) {
+    for (int ix = -r; ix <= r; ++ix) {
+      const double d = std::sqrt(ix * ix + iy * iy);
+      if (d <= radius && d > radius - width) set(cx + ix, cy + iy, colour);
+    }
+  }
+}
+
 void Canvas::text(int x, int y, std::string_view text, int scale, Rgb colour) {
   for (const char c : text) {
     const Glyph& glyph = glyph_of(c);
-    for (int row = 0; row < 7; ++row) {
+    for (int row = 0; row < static_cast<int>(glyph.size()); ++row) {
       for (int column = 0; column < 5; ++column) {
         if ((glyph[static_cast<std::size_t>(row)] >> (4 - column)) & 1) {
           rect(x + column * scale, y + row * scale, scale, scale, colour);
@@ -68,6 +79,21 @@ void Canvas::text(int x, int y, std::string_view text, int scale, Rgb colour) {
     }
     x += 6 * scale;
   }
+}
+
+Canvas halved(const Canvas& in) {
+  Canvas out(in.width() / 2, in.height() / 2, {});
+  for (int y = 0; y < out.height(); ++y) {
+    const std::uint8_t *above = in.row(2 * y), *below = in.row(2 * y + 1);
+    for (int x = 0; x < out.width(); ++x) {
+      const auto mean = [&](int part) {
+        const int i = 6 * x + part;
+        return static_cast<std::uint8_t>((above[i] + above[i + 3] + below[i] + below[i + 3] + 2) / 4);
+      };
+      out.set(x, y, {mean(0), mean(1), mean(2)});
+    }
+  }
+  return out;
 }
 
 }  // namespace evigrid::driver

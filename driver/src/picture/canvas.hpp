@@ -21,7 +21,9 @@ class Canvas {
   void rect(int x, int y, int width, int height, Rgb);
   void line(double x0, double y0, double x1, double y1, int thickness, Rgb);
   void disc(double x, double y, double radius, Rgb);
-  /// Built-in 5 × 7 letters, each pixel `scale` wide; the pen advances 6 · scale a letter.
+  /// A circle line, `width` thick inwards from `radius`.
+  void ring(double x, double y, double radius, double width, Rgb);
+  /// Built-in letters of 5 × 7 pixels (tails reach two lower), each `scale` wide; the pen advances 6 · scale a letter.
   void text(int x, int y, std::string_view, int scale, Rgb);
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -35,6 +37,9 @@ class Canvas {
 };
 
 constexpr int text_width(std::string_view text, int scale) { return static_cast<int>(text.size()) * 6 * scale; }
+
+/// Half the size, every pixel the mean of four: what was drawn twice as large has smooth edges now.
+Canvas halved(const Canvas&);
 
 /// The image as a PNG file in memory.
 std::vector<std::byte> png(const Canvas&);

@@ -6,15 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace evigrid::driver {
 namespace {
 
 constexpr Rgb kUnknown{158, 158, 158}, kEmpty{250, 250, 247}, kOccupied{14, 22, 56}, kConflict{230, 159, 0};
-constexpr Rgb kPath{0, 114, 178}, kStart{0, 158, 115}, kEnd{213, 94, 0}, kInk{34, 34, 34}, kPaper{255, 255, 255};
+constexpr Rgb kLethal{204, 51, 17};  // of the cost map: outside viridis
 constexpr int kLongSide_px = 900;    // at least, on screen
 constexpr int kLeastWidth_px = 780;  // for title and legend
-constexpr int kMargin_px = 16, kHead_px = 52, kFoot_px = 64;
+constexpr int kFoot_px = 64;
 
 float smooth_step(float from, float to, float x) {
   const float t = std::clamp((x - from) / (to - from), 0.0F, 1.0F);
@@ -26,80 +27,69 @@ std::uint8_t mix(float e, float o, float u, float c, std::uint8_t Rgb::*part) {
   return static_cast<std::uint8_t>(std::clamp(std::lround((1 - c) * calm + c * kConflict.*part), 0L, 255L));
 }
 
-struct Frame {  // from frame M to pixels
-  int left, top, scale;
-  const Layers& layers;
-  [[nodiscard]] double x(double x_m) const {
-    return left + (x_m / layers.cell_m - static_cast<double>(layers.rect.x)) * scale;
-  }
-  [[nodiscard]] double y(double y_m) const {
-    return top + (static_cast<double>(layers.rect.y + layers.rect.height) - y_m / layers.cell_m) * scale;
-  }
+/// Title, map and two rows below it; `beside_px` of room to the right of the map.
+struct Page {
+  Canvas canvas;
+  MapFrame frame;
+  int foot;  // y of the first row below the map
 };
-
-void draw_cells(Canvas& canvas, const Frame& f) {
-  const Layers& l = f.layers;
-  for (std::int64_t y = 0; y < l.rect.height; ++y) {
-    for (std::int64_t x = 0; x < l.rect.width; ++x) {
-      const auto i = static_cast<std::size_t>(y * l.rect.width + x);
-      canvas.rect(f.left + static_cast<int>(x) * f.scale, f.top + static_cast<int>(l.rect.height - 1 - y) * f.scale,
-                  f.scale, f.scale, cell_colour(l.e()[i], l.o()[i], l.u()[i], l.conflict()[i]));
-    }
-  }
+Page page_of(const Layers& layers, const PictureText& text, const PictureOptions& options, int beside_px) {
+  const CellRect& r = layers.rect;
+  const int scale = options.scale > 0 ? options.scale : scale_for(r, kLongSide_px);
+  const std::int64_t map_px = r.width * scale;
+  const std::int64_t width = std::max<std::int64_t>(map_px + beside_px, kLeastWidth_px) + 2 * kMargin_px;
+  const std::int64_t least = beside_px > 0 ? 200 : 0;  // a colour bar is never shorter
+  const std::int64_t height = std::max(r.height * scale, least) + kHead_px + kFoot_px + kMargin_px;
+  Page page{canvas_within(width, height, options), {}, 0};
+  page.frame = {static_cast<int>((width - map_px - beside_px) / 2), kHead_px, scale, r, layers.cell_m};
+  page.foot = static_cast<int>(height) - kFoot_px;
+  draw_head(page.canvas, text);
+  return page;
 }
 
-void draw_path(Canvas& canvas, const Frame& f, const std::vector<Pose2>& path) {
-  if (path.empty()) return;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    canvas.line(f.x(path[i - 1].x_m), f.y(path[i - 1].y_m), f.x(path[i].x_m), f.y(path[i].y_m), 1, kPath);
-  }
-  for (const auto& [pose, colour] : {std::pair{path.back(), kEnd}, std::pair{path.front(), kStart}}) {
-    canvas.disc(f.x(pose.x_m), f.y(pose.y_m), 6, kPaper);
-    canvas.disc(f.x(pose.x_m), f.y(pose.y_m), 4.5, colour);
-  }
-}
-
-/// The longest 1, 2 or 5 · 10^k metres that take at most `room_px`.
-double bar_length_m(double px_per_m, double room_px) {
-  double best_m = 0.001;
-  for (double decade = 0.001; decade < 1e7; decade *= 10) {
-    for (const double step : {1.0, 2.0, 5.0}) {
-      if (step * decade * px_per_m <= room_px) best_m = std::max(best_m, step * decade);
-    }
-  }
-  return best_m;
-}
-
-void draw_foot(Canvas& canvas, const Frame& f, int y, bool with_path) {
+void draw_foot(Page& page, const std::vector<std::pair<Rgb, std::string_view>>& swatches, bool with_path) {
   int x = kMargin_px;
-  for (const auto& [colour, label] :
-       {std::pair{kEmpty, "empty"}, {kOccupied, "occupied"}, {kUnknown, "unknown"}, {kConflict, "conflict"}}) {
-    canvas.rect(x, y, 18, 14, kInk);
-    canvas.rect(x + 1, y + 1, 16, 12, colour);
-    canvas.text(x + 24, y, label, 2, kInk);
-    x += 24 + text_width(label, 2) + 14;
-  }
-  if (with_path) {
-    int px = kMargin_px;
-    const int py = y + 28;
-    canvas.rect(px, py + 6, 18, 2, kPath);
-    canvas.text(px + 24, py, "path", 2, kInk);
-    px += 24 + text_width("path", 2) + 14;
-    for (const auto& [colour, label] : {std::pair{kStart, "start"}, {kEnd, "end"}}) {
-      canvas.disc(px + 8, py + 7, 5, colour);
-      canvas.text(px + 24, py, label, 2, kInk);
-      px += 24 + text_width(label, 2) + 14;
-    }
-  }
-  const double px_per_m = f.scale / f.layers.cell_m;
-  const double bar_m = bar_length_m(px_per_m, std::min(0.25 * canvas.width(), 240.0));
-  const int bar_px = std::max(2, static_cast<int>(std::lround(bar_m * px_per_m)));
-  const int right = canvas.width() - kMargin_px, bar_y = y + 28;
-  canvas.rect(right - bar_px, bar_y + 6, bar_px, 3, kInk);
-  canvas.rect(right - bar_px, bar_y, 2, 14, kInk);
-  canvas.rect(right - 2, bar_y, 2, 14, kInk);
-  const std::string label = fmt::format("{:g} m", bar_m);
-  canvas.text(right - bar_px - text_width(label, 2) - 8, bar_y, label, 2, kInk);
+  for (const auto& [colour, label] : swatches) x = draw_swatch(page.canvas, x, page.foot, colour, label);
+  if (with_path) draw_path_legend(page.canvas, kMargin_px, page.foot + kLine_px);
+  draw_scale_bar(page.canvas, page.canvas.width() - kMargin_px, page.foot + kLine_px,
+                 page.frame.scale / page.frame.cell_m);
+}
+
+Canvas draw_numbers(const LookRow& row, const Layers& layers, const std::vector<Pose2>& path, const PictureText& text,
+                    const PictureOptions& options) {
+  Page page = page_of(layers, {std::string(row.title), text.title + "; " + text.subtitle}, options, kColourBar_px + 12);
+  const double top = top_of(row.look, layers);
+  const bool costs = row.look == Look::costmap;
+  const auto colour = [&](double v) {
+    if (costs && v >= 253.5) return kLethal;
+    return colour_of(*row.ramp, v / top);
+  };
+  draw_cells(page.canvas, page.frame, [&](std::size_t i) {
+    const double v = value_of(row.look, layers, i);
+    return never_seen(layers, i) || (costs && v == 255) ? kNeverSeen : colour(v);
+  });
+  draw_path(page.canvas, page.frame, path);
+  const int bar_x = page.frame.left + page.frame.width_px() + 12;
+  const int bar_h = std::clamp(page.frame.height_px() - kLine_px - 8, 150, 420);
+  page.canvas.text(bar_x, kHead_px, row.unit, 2, kInk);
+  draw_colour_bar(page.canvas, bar_x, kHead_px + kLine_px, bar_h, top, row.look == Look::conflict, colour);
+  std::vector<std::pair<Rgb, std::string_view>> swatches{{kNeverSeen, costs ? "no information (255)" : "never seen"}};
+  if (costs) swatches.insert(swatches.begin(), {{kLethal, "lethal (254)"}, {colour(0), "free (0)"}});
+  draw_foot(page, swatches, !path.empty());
+  return std::move(page.canvas);
+}
+
+Canvas draw_composite(const Layers& layers, const std::vector<Pose2>& path, const PictureText& text,
+                      const PictureOptions& options) {
+  Page page = page_of(layers, {text.title + ": grey composite", text.subtitle}, options, 0);
+  draw_cells(page.canvas, page.frame,
+             [&](std::size_t i) { return composite_grey(layers.e()[i], layers.o()[i], layers.u()[i]); });
+  draw_path(page.canvas, page.frame, path);
+  draw_foot(
+      page,
+      {{composite_grey(1, 0, 0), "empty"}, {composite_grey(0, 0, 1), "unknown"}, {composite_grey(0, 1, 0), "occupied"}},
+      !path.empty());
+  return std::move(page.canvas);
 }
 
 }  // namespace
@@ -114,19 +104,40 @@ Rgb cell_colour(float e, float o, float u, float conflict) noexcept {
   return {mix(e, o, u, c, &Rgb::r), mix(e, o, u, c, &Rgb::g), mix(e, o, u, c, &Rgb::b)};
 }
 
-Canvas draw_map(const Layers& layers, const std::vector<Pose2>& trajectory, const PictureText& text) {
-  const auto w = static_cast<int>(layers.rect.width), h = static_cast<int>(layers.rect.height);
-  const int longest = std::max({w, h, 1});
-  const int scale = longest >= kLongSide_px ? 1 : (kLongSide_px + longest - 1) / longest;
-  const int width = std::max(w * scale, kLeastWidth_px) + 2 * kMargin_px;
-  Canvas canvas(width, h * scale + kHead_px + kFoot_px + kMargin_px, kPaper);
-  const Frame frame{(width - w * scale) / 2, kHead_px, scale, layers};
-  canvas.text(kMargin_px, 12, text.title, 2, kInk);
-  canvas.text(kMargin_px, 34, text.subtitle, 1, kInk);
-  draw_cells(canvas, frame);
-  draw_path(canvas, frame, trajectory);
-  draw_foot(canvas, frame, kHead_px + h * scale + kMargin_px, !trajectory.empty());
-  return canvas;
+Canvas canvas_within(std::int64_t width, std::int64_t height, const PictureOptions& options) {
+  constexpr double kSide = 0x7FFFFFFF;  // PNG's own limit
+  const double w = static_cast<double>(width), h = static_cast<double>(height);
+  require_fits(options.name, fmt::format("{} x {} pixels", width, height),
+               std::max(w, h) > kSide ? std::numeric_limits<double>::infinity() : 3 * w * h, options.max_image_mb);
+  return Canvas(static_cast<int>(width), static_cast<int>(height), kPaper);
+}
+
+Canvas draw_map(const Layers& layers, const std::vector<Pose2>& path, const PictureText& text,
+                const PictureOptions& options) {
+  Page page = page_of(layers, text, options, 0);
+  draw_cells(page.canvas, page.frame, [&](std::size_t i) {
+    return cell_colour(layers.e()[i], layers.o()[i], layers.u()[i], layers.conflict()[i]);
+  });
+  draw_path(page.canvas, page.frame, path);
+  draw_foot(page, {{kEmpty, "empty"}, {kOccupied, "occupied"}, {kUnknown, "unknown"}, {kConflict, "conflict"}},
+            !path.empty());
+  return std::move(page.canvas);
+}
+
+Canvas draw(Look look, const Layers& layers, const std::vector<Pose2>& path, const PictureText& text,
+            const PictureOptions& options) {
+  switch (look) {
+    case Look::mixed:
+      return draw_map(layers, path, text, options);
+    case Look::composite:
+      return draw_composite(layers, path, text, options);
+    case Look::panels:
+      return draw_panels(layers, path, text, options);
+    case Look::surface:
+      return draw_surface(layers, text, options);
+    default:
+      return draw_numbers(row_of(look), layers, path, text, options);
+  }
 }
 
 }  // namespace evigrid::driver

@@ -3,6 +3,7 @@
 #pragma once
 #include "evigrid/combine.hpp"
 #include "evigrid/executor.hpp"
+#include "evigrid/io.hpp"
 #include "evigrid/map.hpp"
 #include "evigrid/scan.hpp"
 #include "evigrid/sensor.hpp"

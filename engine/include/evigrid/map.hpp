@@ -26,6 +26,20 @@ struct MapParams {
 };
 [[nodiscard]] std::vector<ParamError> check(const MapParams&);
 
+/// How masses become costs of navigation, by BetP = o + u/2. As in ROS map_server, what lies above lethal_above is
+/// occupied and what lies below free_below is free.
+struct Costmap {
+  double free_below = 0.196, lethal_above = 0.65;
+  double max_unknown = 0.9;  ///< cells with m(unknown) above it, never seen ones among them, hold no information
+};
+/// nav_msgs/OccupancyGrid: −1 no information, 0 free, 100 occupied, 1 … 99 linear in BetP between.
+[[nodiscard]] std::int8_t occupancy_of(const Costmap&, const Mass&) noexcept;
+/// costmap_2d: 255 NO_INFORMATION, 0 FREE_SPACE, 254 LETHAL_OBSTACLE, 1 … 252 linear in BetP between. 253, the
+/// inscribed radius, is the inflation layer's to write.
+[[nodiscard]] std::uint8_t cost_of(const Costmap&, const Mass&) noexcept;
+
+struct MapAccess;  // of the library itself: saving and loading
+
 class Map {
  public:
   /// Throws std::invalid_argument naming every bad field, or when the kernel asked for cannot run on this processor.
@@ -51,6 +65,10 @@ class Map {
   /// Writes rect row by row, smallest y first, into out; row r starts at out[r·stride]. stride counts floats.
   /// Throws std::invalid_argument when out is too short.
   void render(Layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) const;
+  /// The same with occupancy_of each cell. Throws std::invalid_argument too when not 0 ≤ free_below < lethal_above ≤ 1.
+  void render(const Costmap&, CellRect rect, std::span<std::int8_t> out, std::ptrdiff_t stride) const;
+  /// The same with cost_of each cell.
+  void render(const Costmap&, CellRect rect, std::span<std::uint8_t> out, std::ptrdiff_t stride) const;
 
   /// Hash of (index, bits of e, o, u) of the non-vacuous cells in row-major order; independent of tiles and threads.
   [[nodiscard]] std::uint64_t hash() const;
@@ -65,6 +83,7 @@ class Map {
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
  private:
+  friend struct MapAccess;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -38,6 +39,45 @@ float value(Layer layer, const CellState& c) noexcept {
   return 0;
 }
 
+/// Row by row into the caller's buffer, one look-up of a tile for a run of cells.
+template <class T, class F>
+void fill(const TileStore& store, CellRect rect, std::span<T> out, std::ptrdiff_t stride, F&& of) {
+  if (rect.empty()) return;
+  const auto needed = static_cast<std::size_t>(rect.height - 1) * static_cast<std::size_t>(stride) +
+                      static_cast<std::size_t>(rect.width);
+  if (stride < rect.width || out.size() < needed)
+    throw std::invalid_argument("render: the buffer is smaller than the rectangle");
+  for (std::int64_t y = rect.y; y < rect.y + rect.height; ++y) {
+    T* row = out.data() + (y - rect.y) * stride;
+    for (std::int64_t x = rect.x; x < rect.x + rect.width;) {
+      const std::int64_t end = std::min((tile_coordinate(x) + 1) * kSide, rect.x + rect.width);
+      const Tile* tile = store.find(tile_of(x, y));
+      for (; x < end; ++x) {
+        *row++ = of(tile == nullptr ? CellState{}
+                                    : state_at(store, *tile, static_cast<int>(x & 63), static_cast<int>(y & 63)));
+      }
+    }
+  }
+}
+
+struct Costs {
+  int none, lethal, most;  // no information; occupied; the largest of what lies between (the least is 1)
+};
+
+int cost(const Costmap& c, const Mass& m, Costs costs) noexcept {
+  const double betp = m.o + 0.5 * m.u;
+  if (m.u > c.max_unknown) return costs.none;
+  if (betp > c.lethal_above) return costs.lethal;
+  if (betp < c.free_below) return 0;
+  const double part = (betp - c.free_below) / (c.lethal_above - c.free_below);
+  return static_cast<int>(1 + std::lround(part * (costs.most - 1)));
+}
+
+void require_ordered(const Costmap& c) {
+  if (!(c.free_below >= 0 && c.free_below < c.lethal_above && c.lethal_above <= 1))
+    throw std::invalid_argument("costmap: free_below and lethal_above must be 0 <= free_below < lethal_above <= 1");
+}
+
 /// A 64-bit mix per word (constants of splitmix64): enough for "are these maps the same bits?".
 std::uint64_t mix(std::uint64_t h, std::uint64_t word) noexcept {
   h = (h ^ word) * 0x9E3779B97F4A7C15ull;
@@ -70,23 +110,25 @@ CellRect occupied_bounds(const TileStore& store) {
 }
 
 void render_layer(const TileStore& store, Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) {
-  if (rect.empty()) return;
-  const auto needed = static_cast<std::size_t>(rect.height - 1) * static_cast<std::size_t>(stride) +
-                      static_cast<std::size_t>(rect.width);
-  if (stride < rect.width || out.size() < needed)
-    throw std::invalid_argument("render: the buffer is smaller than the rectangle");
-  for (std::int64_t y = rect.y; y < rect.y + rect.height; ++y) {
-    float* row = out.data() + (y - rect.y) * stride;
-    for (std::int64_t x = rect.x; x < rect.x + rect.width;) {
-      const std::int64_t end = std::min((tile_coordinate(x) + 1) * kSide, rect.x + rect.width);
-      const Tile* tile = store.find(tile_of(x, y));
-      for (; x < end; ++x) {
-        *row++ =
-            value(layer, tile == nullptr ? CellState{}
-                                         : state_at(store, *tile, static_cast<int>(x & 63), static_cast<int>(y & 63)));
-      }
-    }
-  }
+  fill(store, rect, out, stride, [layer](const CellState& c) { return value(layer, c); });
+}
+
+std::int8_t occupancy_of(const Costmap& c, const Mass& m) noexcept {
+  return static_cast<std::int8_t>(cost(c, m, {-1, 100, 99}));
+}
+std::uint8_t cost_of(const Costmap& c, const Mass& m) noexcept {
+  return static_cast<std::uint8_t>(cost(c, m, {255, 254, 252}));
+}
+
+void render_costmap(const TileStore& store, const Costmap& c, CellRect rect, std::span<std::int8_t> out,
+                    std::ptrdiff_t stride) {
+  require_ordered(c);
+  fill(store, rect, out, stride, [&c](const CellState& cell) { return occupancy_of(c, cell.mass); });
+}
+void render_costmap(const TileStore& store, const Costmap& c, CellRect rect, std::span<std::uint8_t> out,
+                    std::ptrdiff_t stride) {
+  require_ordered(c);
+  fill(store, rect, out, stride, [&c](const CellState& cell) { return cost_of(c, cell.mass); });
 }
 
 std::uint64_t hash_cells(const TileStore& store) {

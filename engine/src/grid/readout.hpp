@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "evigrid/types.hpp"
+#include "evigrid/map.hpp"
 #include "grid/tile_store.hpp"
 
 namespace evigrid {
@@ -16,6 +16,8 @@ struct CellState {
 CellState read_cell(const TileStore&, CellIndex) noexcept;
 CellRect occupied_bounds(const TileStore&);
 void render_layer(const TileStore&, Layer, CellRect, std::span<float> out, std::ptrdiff_t stride);
+void render_costmap(const TileStore&, const Costmap&, CellRect, std::span<std::int8_t> out, std::ptrdiff_t stride);
+void render_costmap(const TileStore&, const Costmap&, CellRect, std::span<std::uint8_t> out, std::ptrdiff_t stride);
 std::uint64_t hash_cells(const TileStore&);
 
 }  // namespace evigrid

@@ -22,10 +22,12 @@ struct RangeNoise {
 /// 64 well mixed bits for the `draw`-th draw of a key.
 [[nodiscard]] std::uint64_t random_bits(const NoiseKey& key, std::uint32_t draw) noexcept;
 
-/// About standard normal (sum of 12 uniforms − 6): mean 0, variance 1, never beyond ±6.
-[[nodiscard]] double gaussian(const NoiseKey& key) noexcept;
+/// About standard normal (sum of 12 uniforms − 6): mean 0, variance 1, never beyond ±6. `index`: the beam of a laser,
+/// or whatever else one key has several of.
+[[nodiscard]] double gaussian(const NoiseKey& key, std::uint32_t index = 0) noexcept;
 
-/// range_m + σ(range_m) · gaussian(key). May leave the sensor's limits; the caller decides what that means.
-[[nodiscard]] double noisy(double range_m, const RangeNoise& noise, const NoiseKey& key) noexcept;
+/// range_m + σ(range_m) · gaussian(key, index). May leave the sensor's limits; the caller decides what that means.
+[[nodiscard]] double noisy(double range_m, const RangeNoise& noise, const NoiseKey& key,
+                           std::uint32_t index = 0) noexcept;
 
 }  // namespace evigrid::raycast

@@ -30,28 +30,33 @@ class Scene {
   [[nodiscard]] Echo cast_cone(const ConeQuery& query, Placements movers = {}) const;
 
   /// The same for many cones (thousands of poses): echoes[i] answers queries[i]; equal to one call each, bit for bit.
-  /// `threads`: 0 for as many as the machine has, on a TBB arena of its own.
+  /// `threads`: 0 for as many as the machine has, and never more; on a TBB arena of its own. Throws before any echo is
+  /// written when one of the queries is bad.
   void cast_cones(std::span<const ConeQuery> queries, std::span<Echo> echoes, Placements movers = {},
                   int threads = 1) const;
 
-  /// The echo of cast_cone, or a longer path if it is shorter than that: sound thrown away by a surface beyond its
-  /// critical incidence is followed to the next surface; when that one sends it back, the sonar hears half the length
-  /// of the whole way: too long a reading (Li et al. 2014, false reflection). `rays` coherent rays sample the cone.
+  /// The echo of cast_cone, or that of a second bounce where it comes first: sound thrown away by a surface beyond its
+  /// critical incidence is followed, as from a mirror, to the next surface; when that one sends it back the same way,
+  /// d2 + d1, the sonar halves the whole way and reads d1 + d2: too long (Li et al. 2014, false reflection). `rays`
+  /// directions sample the cone, both edges included: the way found is never shorter than the shortest one.
   [[nodiscard]] Echo cast_cone_second_bounce(const ConeQuery& query, Placements movers = {}, int rays = 32) const;
 
-  /// Cross-talk: `speaker` and `listener` ping at the same moment, and the listener hears the speaker's sound first:
-  /// half the shortest way speaker → surface → listener with both cones looking at the point and nothing in between,
-  /// among `rays` directions of the listener's cone. EchoStatus::none when there is none.
+  /// Cross-talk: `speaker` and `listener` ping at the same moment, and the listener takes the speaker's sound for its
+  /// own: half the shortest way speaker → surface → listener with both cones looking at the point and nothing in
+  /// between, among `rays` directions of the listener's cone. The surface sends it on where the bisector of the
+  /// directions to both is within its critical incidence. The smaller of both ranges limits what is heard; the
+  /// listener's min_range_m counts. EchoStatus::none when there is none. Whether its own echo comes first is for the
+  /// caller to compare.
   [[nodiscard]] Echo cross_talk(const ConeQuery& speaker, const ConeQuery& listener, Placements movers = {},
                                 int rays = 32) const;
 
-  /// Distance to the first surface along one ray, whatever its incidence (laser); +∞ when farther than max_range_m, or
-  /// when the surface absorbs too much.
+  /// Distance to the first surface along one ray, whatever its incidence (laser); +∞ when farther than max_range_m
+  /// (closed), or when the surface absorbs too much. A straight surface that the laser stands on is not seen.
   [[nodiscard]] double ray_range(double x_m, double y_m, double angle_rad, double max_range_m,
                                  Placements movers = {}) const;
 
   /// Lasers: the first surface along each ray of a fan, in packets of 16 coherent rays. ranges_m has query.beams
-  /// elements; equals ray_range of the same directions to 1e-9 m.
+  /// elements; equals ray_range of the same directions to 1e-9 m. Throws std::invalid_argument for a bad query or size.
   void cast_fan(const FanQuery& query, std::span<double> ranges_m, Placements movers = {}) const;
 
   /// Many fans, one after the other in ranges_m (total of their beams). `threads` as for cast_cones.

@@ -10,9 +10,9 @@ namespace evigrid::raycast {
 /// Acoustic property of a surface. Beyond the critical incidence (measured from the surface normal) sound is thrown
 /// away from the sensor: that part of the surface gives no echo, but it still hides what is behind it.
 ///
-/// Absorption: an echo from range R has energy (1 − absorption)/R² of a perfect one at 1 m and is heard when that is not
-/// below the one of a perfect echo from max_range: the surface is heard (or seen by a laser) up to max_range·√(1 − a).
-/// Farther away it gives no reading, but it still hides what is behind it. (ours: no paper gives a figure.)
+/// Absorption: an echo from range R has energy (1 − absorption)/R² of a perfect one at 1 m and is heard when that is
+/// not below the one of a perfect echo from max_range: the surface is heard (or seen by a laser) up to max_range·√(1 −
+/// a). Farther away it gives no reading, but it still hides what is behind it. (ours: no paper gives a figure.)
 struct Material {
   double critical_incidence_rad = std::numbers::pi / 2;  ///< in [0, π/2]; π/2: every part gives an echo
   double absorption = 0;                                 ///< in [0, 1): 0 reflects all energy

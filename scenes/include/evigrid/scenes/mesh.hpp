@@ -3,8 +3,11 @@
 // orders) and OBJ.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "evigrid/raycast/world.hpp"
@@ -17,8 +20,12 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> faces;  ///< polygons are cut into triangles; every index is valid
 };
 
-/// By extension, .ply or .obj. Throws SceneError naming file and line (or byte).
+/// By extension, .ply or .obj. Throws SceneError naming file and line (or byte). Of an OBJ only vertices and faces are
+/// read; material files are not opened. Relative (negative) indices of an OBJ count back from the last vertex.
 [[nodiscard]] Mesh load_mesh(const std::filesystem::path& file);
+
+/// Same from memory; extension ".ply" or ".obj"; `name` stands for the file name in messages.
+[[nodiscard]] Mesh load_mesh_bytes(std::span<const std::byte> bytes, std::string_view extension, std::string_view name);
 
 struct MeshPlacement {
   double scale = 1;      ///< metres per unit of the file
@@ -28,7 +35,10 @@ struct MeshPlacement {
   raycast::Material material{};
 };
 
-/// Straight walls where the mesh meets the plane; pieces on one line that touch are joined.
+/// Straight walls where the mesh meets the plane. Pieces that continue one another in a straight line are joined, and a
+/// piece that comes twice is kept once. A vertex at the very height counts as above it, so that the outline of a closed
+/// mesh is closed and faces within the plane give nothing. Tolerance: 2^-22 of the mesh's size, the rounding of a file
+/// in float. Throws std::invalid_argument for a placement or an index that cannot be.
 [[nodiscard]] std::vector<raycast::Wall> slice(const Mesh& mesh, const MeshPlacement& placement);
 
 }  // namespace evigrid::scenes

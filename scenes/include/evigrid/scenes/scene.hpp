@@ -4,6 +4,8 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -54,20 +56,28 @@ struct EchoSpec {
   bool cross_talk = false;     ///< within a firing group
 };
 
-/// Waypoints, driven one after the other: turn on the spot towards the next one, then straight to it.
+/// A stretch with constant speed and turn rate: a straight line, an arc of an exact circle, or a turn on the spot.
+struct Motion {
+  double duration_s = 0, speed_m_s = 0, turn_rate_rad_s = 0;
+};
+
+/// How something drives. Waypoints are driven one after the other: turn on the spot towards the next one, then straight
+/// to it. Or legs of constant velocity, from `start` on.
 struct TrajectorySpec {
-  std::vector<raycast::Point> waypoints;  ///< at least one; the first one is the start
+  std::vector<raycast::Point> waypoints;  ///< the first one is the start, unless `start` is given
   double speed_m_s = 0.5;
   double turn_rate_rad_s = 1;
-  double period_s = 0.1;  ///< one scan of all sonars per period
+  double period_s = 0.1;  ///< one scan of all sensors per period
   std::uint64_t seed = 0;
+  std::vector<Motion> legs{};  ///< instead of waypoints; needs a start
+  std::optional<Pose> start{};      ///< absent: at the first waypoint, facing the next one
 };
 
 /// Wheel odometry of a differential drive: what the robot believes to have driven. Each wheel's way is scaled by its
 /// drift and by noise; standard deviations grow with the root of the way. Counter-based, repeatable from the seed.
 struct OdometrySpec {
-  bool used = false;             ///< else the robot knows its true pose
-  double track_m = 0.3;          ///< distance of the wheels
+  bool used = false;     ///< a drift or a noise is stated; else the robot knows its true pose
+  double track_m = 0.3;  ///< distance of the wheels
   double drift_left = 0, drift_right = 0;  ///< relative error of each wheel's way, constant over the run
   double noise_m_per_sqrt_m = 0;           ///< standard deviation of each wheel's way over one metre
 };
@@ -77,7 +87,7 @@ struct MoverSpec {
   std::string name;
   raycast::World shape;
   TrajectorySpec trajectory;  ///< period and seed are the robot's
-  bool loop = false;          ///< starts again at the end; else it stays there
+  bool loop = false;          ///< starts again at the end, where it should have come back to; else it stays there
 };
 
 struct Scene {
@@ -105,7 +115,25 @@ class SceneError : public std::runtime_error {
 /// Same for text; `name` stands for the file name in messages. Throws SceneError.
 [[nodiscard]] Scene parse_scene(std::string_view text, std::string_view name);
 
-/// The embedded scene: a furnished room of about 10 × 10 m and a robot with a ring of 24 sonars. TOML text.
+/// Replaces the scene's robot, as [robot] use = "…" does: an embedded robot by name, or a file (its name ends in
+/// .toml). The trajectory stays. Throws SceneError.
+void use_robot(Scene& scene, const std::string& name_or_file);
+
+/// TOML text that is part of the library.
+struct Embedded {
+  std::string_view name, text;
+};
+
+/// "default" (a furnished room of about 10 × 10 m, a ring of 24 sonars) and the worlds of the papers: "hughes1992" ...
+[[nodiscard]] std::span<const Embedded> embedded_scenes() noexcept;
+
+/// Robots for [robot] use: "hughes24", "pioneer16", "laser360" ...
+[[nodiscard]] std::span<const Embedded> embedded_robots() noexcept;
+
+/// The text of that name, or an empty one.
+[[nodiscard]] std::string_view find_embedded(std::span<const Embedded> all, std::string_view name) noexcept;
+
+/// embedded_scenes()["default"].
 [[nodiscard]] std::string_view default_scene_text() noexcept;
 
 }  // namespace evigrid::scenes

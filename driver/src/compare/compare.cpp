@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare/compare.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+#include "compare/table.hpp"
+#include "error.hpp"
+#include "log/readers.hpp"
+#include "mapping.hpp"
+#include "out/out_dir.hpp"
+#include "picture/sheet.hpp"
+#include "score/truth.hpp"
+#include "simulated.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+constexpr int kPanel_px = 420, kMostColumns = 4;
+
+/// One set of readings and, where the world is known, what a perfect map of it would say.
+struct Subject {
+  std::string robot;
+  Log log;
+  std::optional<scenes::Scene> scene;
+};
+
+bool is_sonar_model(const std::string& model) { return parse_model(model) != Model::beam; }
+
+bool is_scene(const std::string& input) {
+  return std::filesystem::path(input).extension() == ".toml" ||
+         !scenes::find_embedded(scenes::embedded_scenes(), input).empty();
+}
+
+std::vector<Subject> read_subjects(const CompareOptions& o) {
+  std::vector<Subject> out;
+  if (!o.inputs.empty() && !is_scene(o.inputs.front())) {
+    if (!o.robots.empty()) throw InputError("--robots: a recorded log has its own robot");
+    if (!o.world.world.empty()) throw InputError("--world: cannot be given beside a log");
+    out.push_back({"", read_log(o.inputs, "auto"), std::nullopt});
+    return out;
+  }
+  if (o.inputs.size() > 1) throw InputError("one scene at a time");
+  for (const std::string& robot : o.robots.empty() ? std::vector<std::string>{""} : o.robots) {
+    WorldOptions options = o.world;
+    if (!o.inputs.empty()) options.scene = o.inputs.front();
+    options.robot = robot;
+    const SceneInput input = open_input(options);
+    out.push_back({robot, simulate(input.scene, {.threads = o.mapping.threads}).log, input.scene});
+  }
+  return out;
+}
+
+std::string name_of(const CompareOptions& o) {
+  const std::string path = !o.inputs.empty() ? o.inputs.front() : !o.world.world.empty() ? o.world.world : "default scene";
+  return std::filesystem::path(path).filename().string();
+}
+
+struct Result {
+  CompareRow row;
+  Layers layers;
+};
+
+Result fuse_one(const Subject& subject, const MappingOptions& options, const Plan& plan,
+                const std::optional<scenes::TruthGrid>& truth) {
+  const Fused fused = fuse(subject.log, options, plan);
+  Result out;
+  out.layers = render_layers(fused.map, options.max_image_mb);
+  CompareRow& r = out.row;
+  r.robot = subject.robot;
+  r.rule = options.rule;
+  r.model = fmt::format("{}", fmt::join(fused.models, "+"));
+  r.cells_updated = fused.report.cells_updated;
+  r.readings_used = fused.report.readings_used;
+  r.readings_refused = fused.report.refused_total();
+  r.total_conflicts = fused.report.total_conflicts;
+  r.fusion_s = fused.fusion_s;
+  r.map_hash = fmt::format("{:016x}", fused.map.hash());
+  double conflict = 0, unknown = 0, touched = 0;
+  const std::size_t n = out.layers.cells();
+  for (std::size_t i = 0; i < n; ++i) {
+    unknown += out.layers.u()[i];
+    if (out.layers.u()[i] == 1) continue;
+    conflict += out.layers.conflict()[i];
+    ++touched;
+  }
+  r.mean_conflict = touched > 0 ? conflict / touched : 0;
+  r.ignorance = n > 0 ? unknown / static_cast<double>(n) : 1;
+  if (truth) r.score = score(out.layers, *truth);
+  return out;
+}
+
+CellRect around(const CellRect& a, const CellRect& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  const std::int64_t x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+  return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
+
+std::string caption(const CompareRow& r) {
+  return r.robot.empty() ? fmt::format("{}, {}", r.rule, r.model) : fmt::format("{}: {}, {}", r.robot, r.rule, r.model);
+}
+
+std::vector<std::string> figures(const CompareRow& r) {
+  std::vector<std::string> lines;
+  if (r.score) {
+    const auto line = [](const char* what, const Agreement& a) {
+      return fmt::format("{}: precision {:.3f}  recall {:.3f}  mistaken {:.4f}", what, a.precision, a.recall,
+                         a.mistaken_rate);
+    };
+    lines.push_back(line("strict       ", r.score->strict));
+    lines.push_back(line("within 1 cell", r.score->near));
+  }
+  lines.push_back(fmt::format("{} cell updates in {:.1f} ms", r.cells_updated, r.fusion_s * 1e3));
+  return lines;
+}
+
+}  // namespace
+
+void compare(const CompareOptions& given) {
+  const auto start = Clock::now();
+  CompareOptions o = given;
+  for (const std::string& rule : o.rules) parse_rule(rule);
+  std::vector<std::string> sonar_models;
+  for (const std::string& model : o.models) {
+    if (is_sonar_model(model)) sonar_models.push_back(model);
+  }
+  if (o.rules.empty()) throw InputError("--rules: names no rule");
+  OutDir out(o.mapping.out_dir);
+  const std::vector<Subject> subjects = read_subjects(o);
+
+  std::vector<Result> results;
+  std::optional<scenes::TruthGrid> truth;
+  CellRect all{};
+  for (const Subject& subject : subjects) {
+    MappingOptions options = o.mapping;
+    if (subject.scene && !options.cell_m) options.cell_m = subject.scene->map.cell_m;
+    const bool cones = std::any_of(subject.log.sensors.begin(), subject.log.sensors.end(),
+                                   [](const LogSensor& s) { return s.sensor.beams == 1; });
+    if (cones && sonar_models.empty()) throw InputError("--models: names no model for sonars");
+    for (const std::string& rule : o.rules) {
+      for (const std::string& model : cones ? sonar_models : std::vector<std::string>{""}) {
+        options.rule = rule;
+        options.model = model;
+        const Plan plan = make_plan(options);
+        if (subject.scene && !truth) truth = scene_truth(*subject.scene, plan.params.cell_m);
+        results.push_back(fuse_one(subject, options, plan, truth));
+        all = around(all, results.back().layers.rect);
+      }
+    }
+  }
+
+  std::vector<CompareRow> rows;
+  std::vector<Panel> panels;
+  // The sheet shows the world; readings that leak far outside of it must not make it small.
+  const SheetScale scale = sheet_scale(truth ? CellRect{truth->x, truth->y, truth->width, truth->height} : all, kPanel_px);
+  if (truth) panels.push_back({"truth", {"dark: surfaces  pale: free  grey: out of sight"}, thumbnail(*truth, scale)});
+  for (const Result& r : results) {
+    rows.push_back(r.row);
+    panels.push_back({caption(r.row), figures(r.row), thumbnail(r.layers, scale)});
+  }
+  const std::string title = fmt::format("evigrid compare: {}, cell {:g} m",
+                                        name_of(o),
+                                        results.front().layers.cell_m);
+  const int count = static_cast<int>(panels.size());
+  const int columns = count <= kMostColumns ? count : count % 3 == 0 ? 3 : kMostColumns;
+  out.write("sheet.png", png(draw_sheet(title, panels, columns)), {});
+  out.write("compare.csv", to_csv(rows));
+  out.write("compare.md", to_markdown(rows));
+  nlohmann::ordered_json report{{"input", name_of(o)}, {"rows", to_json(rows)}, {"wall_s", seconds_since(start)}};
+  const std::string bytes = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  out.write("report.json", bytes);
+  if (!o.mapping.json.empty() && o.mapping.json != "-") out.write_outside(o.mapping.json, bytes);
+  out.commit();
+  std::cout << (o.mapping.json == "-" ? bytes : to_markdown(rows) + "Look at " + (out.path() / "sheet.png").string() + "\n");
+}
+
+}  // namespace evigrid::driver

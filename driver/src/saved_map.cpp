@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "saved_map.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "error.hpp"
+
+namespace evigrid::driver {
+
+SavedMap open_saved_map(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path file = fs::is_directory(path, ignored) ? fs::path(path) / kMapFile : fs::path(path);
+  try {
+    MapFileInfo info = inspect(file);
+    // The file may be anyone's: what it says of memory is not believed.
+    return {file.string(), std::move(info), load(file, {.memory_cap_bytes = MapParams{}.memory_cap_bytes})};
+  } catch (const MapFileError& bad) {
+    throw InputError(bad.what());
+  }
+}
+
+std::string describe_map(const SavedMap& saved) {
+  std::string models;
+  for (const Sensor& s : saved.map.sensors()) {
+    const std::string model(name(s.model));
+    if (models.find(model) == std::string::npos) models += (models.empty() ? "" : " + ") + model;
+  }
+  return fmt::format("{}, {}, cell {:g} m", name(saved.map.params().rule), models.empty() ? "no sensor" : models,
+                     saved.map.params().cell_m);
+}
+
+}  // namespace evigrid::driver

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// A saved map as commands name it: the file, or the folder that `map` and `run` wrote.
+#pragma once
+#include <string>
+
+#include "evigrid/io.hpp"
+
+namespace evigrid::driver {
+
+inline constexpr const char* kMapFile = "map.evigrid";
+
+struct SavedMap {
+  std::string path;  ///< the file itself
+  MapFileInfo info;
+  Map map;  ///< read whole and proved against every checksum and the saved hash
+};
+
+/// Throws InputError naming the file and what is wrong with it.
+SavedMap open_saved_map(const std::string& path);
+
+/// "pcr5, cell 0.05 m": the line that titles a picture of it.
+std::string describe_map(const SavedMap&);
+
+}  // namespace evigrid::driver

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a simulated run comes from: a scene, by file or name, or a bare world (a floor plan, a mesh, a generated
+// building) in which a robot is put and sent on a tour. Shared by `run` and `cast`.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "simulated.hpp"
+
+namespace evigrid::driver {
+
+struct WorldOptions {
+  std::string scene;  ///< file or name
+  std::string world;  ///< plan, mesh, or "building"
+  std::string robot, start;
+  std::optional<double> resolution_m, height_m;
+  std::optional<std::int64_t> seed;
+};
+
+void add_world_options(CLI::App& command, WorldOptions& options);
+
+/// Throws InputError.
+SceneInput open_input(const WorldOptions& options);
+
+}  // namespace evigrid::driver

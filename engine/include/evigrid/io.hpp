@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// A map in a file, bit for bit: parameters, sensors, last stamp and every plane of every tile. A loaded map goes on
+// fusing as if it had never been saved. Little-endian, versioned, checksummed block by block; docs/map_file.md has the
+// layout. Damage is always an error, never another map.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evigrid/map.hpp"
+
+namespace evigrid {
+
+/// "FILE: what is wrong": not a map, truncated, checksum of tile n, a newer version, cannot be written …
+class MapFileError : public std::runtime_error {
+ public:
+  MapFileError(std::string_view file, std::string_view reason)
+      : std::runtime_error(std::string(file) + ": " + std::string(reason)) {}
+};
+
+inline constexpr std::uint32_t kMapFileVersion = 1;  ///< older ones stay readable
+
+/// What a file says of itself without its cells.
+struct MapFileInfo {
+  std::uint32_t format_version = 0;
+  int maths_version = 0;  ///< of the program that fused the map
+  MapParams params;
+  std::vector<Sensor> sensors;
+  std::vector<std::string> planes;  ///< "e", "o", "u" and, where kept, "conflict"
+  std::optional<std::int64_t> last_stamp_ns;
+  std::uint64_t hash = 0;  ///< Map::hash() when it was saved
+  std::uint64_t tiles = 0, file_bytes = 0, memory_bytes = 0;
+};
+
+/// What belongs to this machine and not to the map.
+struct LoadOptions {
+  std::shared_ptr<Executor> executor{};  ///< as in Map's constructor
+  std::optional<Kernel> kernel{};        ///< else the saved one, or the widest where that cannot run
+  /// Checked before anything is allocated, and then the map's cap; else the saved one. Give it for files of strangers.
+  std::optional<std::size_t> memory_cap_bytes{};
+};
+
+/// Written beside, synchronised with the disk, renamed: `path` never holds half a map. Runs on the map's executor.
+void save(const Map&, const std::filesystem::path& path);
+/// The same bytes into a stream. Throws MapFileError when the stream fails.
+void save(const Map&, std::ostream&);
+
+[[nodiscard]] Map load(const std::filesystem::path& path, const LoadOptions& = {});
+/// @param name what errors call the bytes.
+[[nodiscard]] Map load(std::span<const std::byte>, const LoadOptions& = {}, std::string_view name = "map");
+
+[[nodiscard]] MapFileInfo inspect(const std::filesystem::path& path);
+[[nodiscard]] MapFileInfo inspect(std::span<const std::byte>, std::string_view name = "map");
+
+}  // namespace evigrid

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// One list of fields writes and reads: shortest decimal text that gives back the same bits (std::to_chars).
+#include "io/header.hpp"
+
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <type_traits>
+
+namespace evigrid::io {
+namespace {
+
+constexpr std::string_view kSensor = "[sensor]";
+
+template <class P, class F>
+void each_param(P& p, F&& f) {
+  f("cell_m", p.cell_m);
+  f("rule", p.rule);
+  f("kernel", p.kernel);
+  f("keep_conflict", p.keep_conflict);
+  f("memory_cap_bytes", p.memory_cap_bytes);
+}
+
+template <class S, class F>
+void each_field(S& s, F&& f) {
+  f("model", s.model);
+  f("T_robot_sensor.x_m", s.T_robot_sensor.x_m);
+  f("T_robot_sensor.y_m", s.T_robot_sensor.y_m);
+  f("T_robot_sensor.yaw_rad", s.T_robot_sensor.yaw_rad);
+  f("aperture_rad", s.aperture_rad);
+  f("min_range_m", s.min_range_m);
+  f("max_range_m", s.max_range_m);
+  f("no_return_m", s.no_return_m);
+  f("clear_no_return", s.clear_no_return);
+  f("reliability", s.reliability);
+  f("beams", s.beams);
+  f("first_beam_rad", s.first_beam_rad);
+  f("beam_step_rad", s.beam_step_rad);
+  f("hughes.r_max_m", s.hughes.r_max_m);
+  f("hughes.max_occupied", s.hughes.max_occupied);
+  f("hughes.tolerance_m", s.hughes.tolerance_m);
+  f("li.rho_e", s.li.rho_e);
+  f("li.rho_o", s.li.rho_o);
+  f("li.rho_c", s.li.rho_c);
+  f("li.rho_i", s.li.rho_i);
+  f("li.epsilon_ratio", s.li.epsilon_ratio);
+  f("beam.empty", s.beam.empty);
+  f("beam.occupied", s.beam.occupied);
+  f("beam.empty_margin_m", s.beam.empty_margin_m);
+  f("beam.occupied_half_width_m", s.beam.occupied_half_width_m);
+}
+
+/// What is neither a parameter nor a sensor, but for last_stamp_ns and planes, which need not be there, and map_hash,
+/// which is hexadecimal as in every report.
+template <class I, class F>
+void each_fact(I& i, F&& f) {
+  f("maths_version", i.maths_version);
+}
+
+template <class T>
+void write(std::string& out, std::string_view key, const T& value) {
+  out.append(key).push_back('=');
+  if constexpr (std::is_same_v<T, bool>) {
+    out += value ? '1' : '0';
+  } else if constexpr (std::is_enum_v<T>) {
+    out += name(value);
+  } else {
+    std::array<char, 40> text;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    out.append(text.data(), end);
+  }
+  out += '\n';
+}
+
+std::optional<Rule> from_name(Rule, std::string_view s) { return rule_from_name(s); }
+std::optional<Model> from_name(Model, std::string_view s) { return model_from_name(s); }
+std::optional<Kernel> from_name(Kernel, std::string_view s) { return kernel_from_name(s); }
+
+template <class T>
+bool read(std::string_view text, T& value) {
+  if constexpr (std::is_same_v<T, bool>) {
+    value = text == "1";
+    return text == "1" || text == "0";
+  } else if constexpr (std::is_enum_v<T>) {
+    const auto found = from_name(value, text);
+    if (found) value = *found;
+    return found.has_value();
+  } else {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
+  }
+}
+
+std::vector<std::string> split(std::string_view list) {
+  std::vector<std::string> out;
+  while (!list.empty()) {
+    const std::size_t comma = list.find(',');
+    out.emplace_back(list.substr(0, comma));
+    list = comma == std::string_view::npos ? std::string_view{} : list.substr(comma + 1);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string header_text(const MapFileInfo& info) {
+  std::string out;
+  const auto line = [&](std::string_view key, const auto& value) { write(out, key, value); };
+  each_fact(info, line);
+  std::array<char, 16> hash{};
+  const auto hash_end = std::to_chars(hash.data(), hash.data() + hash.size(), info.hash, 16).ptr;
+  out.append("map_hash=").append(hash.data(), hash_end).push_back('\n');
+  if (info.last_stamp_ns) line("last_stamp_ns", *info.last_stamp_ns);
+  out += "planes=";
+  for (std::size_t i = 0; i < info.planes.size(); ++i) out += (i > 0 ? "," : "") + info.planes[i];
+  out += '\n';
+  each_param(info.params, line);
+  for (const Sensor& sensor : info.sensors) {
+    out.append(kSensor).push_back('\n');
+    each_field(sensor, line);
+  }
+  return out;
+}
+
+MapFileInfo parse_header(std::string_view text) {
+  MapFileInfo info;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) throw std::invalid_argument("header: its last line has no end");
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end + 1);
+    if (line == kSensor) {
+      info.sensors.emplace_back();
+      continue;
+    }
+    const std::size_t equals = line.find('=');
+    const std::string_view key = line.substr(0, equals);
+    const std::string_view value = equals == std::string_view::npos ? std::string_view{} : line.substr(equals + 1);
+    bool known = false, good = false;
+    const auto match = [&](std::string_view field, auto& target) {
+      if (field != key) return;
+      known = true;
+      good = read(value, target);
+    };
+    if (!info.sensors.empty()) {
+      each_field(info.sensors.back(), match);
+    } else if (key == "planes") {
+      info.planes = split(value);
+      known = good = true;
+    } else if (key == "map_hash") {
+      known = true;
+      good =
+          std::from_chars(value.data(), value.data() + value.size(), info.hash, 16).ptr == value.data() + value.size();
+    } else if (key == "last_stamp_ns") {
+      match(key, info.last_stamp_ns.emplace());
+    } else {
+      each_fact(info, match);
+      each_param(info.params, match);
+    }
+    const std::string where = "header line " + std::to_string(number) + ": '" + std::string(key) + "' ";
+    if (!known) throw std::invalid_argument(where + "is unknown: a newer program wrote this file");
+    if (!good) throw std::invalid_argument(where + "has the bad value '" + std::string(value) + "'");
+  }
+  return info;
+}
+
+}  // namespace evigrid::io

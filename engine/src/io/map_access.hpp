@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What saving and loading reach of a Map beyond its public face.
+#pragma once
+#include <cstdint>
+
+#include "evigrid/map.hpp"
+#include "grid/tile_store.hpp"
+
+namespace evigrid {
+
+struct MapAccess {
+  static const TileStore& store(const Map&) noexcept;
+  static TileStore& store(Map&) noexcept;
+  static std::int64_t& last_stamp_ns(Map&) noexcept;  ///< the smallest number before the first scan
+  static std::int64_t last_stamp_ns(const Map&) noexcept;
+  static Executor& executor(const Map&) noexcept;
+};
+
+}  // namespace evigrid

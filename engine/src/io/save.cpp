@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tiles are compressed in parallel, a batch at a time, and written in their row-major order: the same map gives the
+// same file on any executor.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <ostream>
+
+#include "evigrid/io.hpp"
+#include "io/header.hpp"
+#include "io/layout.hpp"
+#include "io/map_access.hpp"
+#include "io/tile_codec.hpp"
+
+namespace evigrid {
+namespace {
+
+using Sink = std::function<void(std::span<const std::byte>)>;
+constexpr std::size_t kBatch = 256;  // tiles held compressed at a time
+
+struct Batch {
+  const TileStore& store;
+  std::vector<const Tile*> tiles;
+  std::vector<std::vector<std::byte>> blocks;
+  std::vector<io::TileEncoder>& encoders;
+};
+
+void encode(Batch& batch, Executor& executor) {
+  batch.blocks.assign(batch.tiles.size(), {});
+  executor.run(
+      static_cast<std::int64_t>(batch.tiles.size()),
+      [](void* context, std::int64_t index, int worker) {
+        Batch& b = *static_cast<Batch*>(context);
+        const auto i = static_cast<std::size_t>(index);
+        b.blocks[i] = b.encoders[static_cast<std::size_t>(worker)].encode(b.store, *b.tiles[i]);
+      },
+      &batch);
+  for (const auto& block : batch.blocks) {
+    if (block.empty()) throw std::bad_alloc();
+  }
+}
+
+std::string header_of(const Map& map) {
+  MapFileInfo info;
+  info.maths_version = kMathsVersion;
+  info.params = map.params();
+  info.sensors.assign(map.sensors().begin(), map.sensors().end());
+  info.planes = {"e", "o", "u"};
+  if (info.params.keep_conflict) info.planes.emplace_back("conflict");
+  const std::int64_t stamp = MapAccess::last_stamp_ns(map);
+  if (stamp != std::numeric_limits<std::int64_t>::min()) info.last_stamp_ns = stamp;
+  info.hash = map.hash();
+  return io::header_text(info);
+}
+
+void write_map(const Map& map, std::string_view name, const Sink& sink) {
+  const std::string text = header_of(map);
+  if (text.size() > io::kMaxHeaderBytes) throw MapFileError(name, "too many sensors for a map file");
+  const auto text_bytes = std::as_bytes(std::span(text));
+  io::Bytes head;
+  head.put_raw(io::kMagic);
+  head.put(kMapFileVersion);
+  head.put(static_cast<std::uint32_t>(text.size()));
+  head.put(io::crc32(text_bytes));
+  head.put(io::crc32(head.get()));
+  sink(head.get());
+  sink(text_bytes);
+
+  const TileStore& store = MapAccess::store(map);
+  Executor& executor = MapAccess::executor(map);
+  std::vector<io::TileEncoder> encoders(static_cast<std::size_t>(executor.concurrency()));
+  Batch batch{store, {}, {}, encoders};
+  std::uint64_t offset = io::kHeadBytes + text.size();
+  io::Bytes directory;
+  for (auto it = store.tiles().begin(); it != store.tiles().end();) {
+    batch.tiles.clear();
+    for (; it != store.tiles().end() && batch.tiles.size() < kBatch; ++it) batch.tiles.push_back(&it->second);
+    encode(batch, executor);
+    for (std::size_t i = 0; i < batch.tiles.size(); ++i) {
+      const auto& block = batch.blocks[i];
+      directory.put(batch.tiles[i]->index.x);
+      directory.put(batch.tiles[i]->index.y);
+      directory.put(offset);
+      directory.put(static_cast<std::uint32_t>(block.size()));
+      directory.put(io::crc32(block));
+      sink(block);
+      offset += block.size();
+    }
+  }
+  sink(directory.get());
+  io::Bytes tail;
+  tail.put(offset);
+  tail.put(static_cast<std::uint64_t>(store.size()));
+  tail.put(offset + directory.get().size() + io::kTailBytes);
+  tail.put(io::crc32(directory.get()));
+  tail.put(io::crc32(tail.get()));
+  tail.put_raw(io::kEndMagic);
+  sink(tail.get());
+}
+
+/// A file under a temporary name that becomes the real one in commit(), or goes away.
+class NewFile {
+ public:
+  explicit NewFile(const std::filesystem::path& target) : target_(target), temporary_(target) {
+    std::string name(1, '.');
+    name.append(target.filename().string()).append(".tmp-").append(std::to_string(::getpid()));
+    temporary_.replace_filename(name);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail();
+  }
+  ~NewFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!done_) ::unlink(temporary_.c_str());
+  }
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  void write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) fail();
+      bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+  }
+  void commit() {
+    if (::fsync(descriptor_) != 0) fail();
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0 || ::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
+    done_ = true;
+    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+    if (const int d = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); d >= 0) {
+      ::fsync(d);  // the new name too; some file systems cannot, and the map is whole either way
+      ::close(d);
+    }
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw MapFileError(target_.string(), std::string("cannot be written: ") + std::strerror(errno));
+  }
+  std::filesystem::path target_, temporary_;
+  int descriptor_ = -1;
+  bool done_ = false;
+};
+
+}  // namespace
+
+void save(const Map& map, const std::filesystem::path& path) {
+  NewFile file(path);
+  write_map(map, path.string(), [&](std::span<const std::byte> bytes) { file.write(bytes); });
+  file.commit();
+}
+
+void save(const Map& map, std::ostream& out) {
+  write_map(map, "map", [&](std::span<const std::byte> bytes) {
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!out) throw MapFileError("map", "the stream cannot be written");
+  });
+}
+
+}  // namespace evigrid
