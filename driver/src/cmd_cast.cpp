@@ -67,7 +67,8 @@ void add_cast(CLI::App& app) {
       ->capture_default_str();
   command->footer(
       "Columns: step,stamp_ns,x_m,y_m,yaw_rad,sensor,range_m[,truth][,beam][,odom_x_m,odom_y_m,odom_yaw_rad].\n"
-      "x_m, y_m, yaw_rad: the true pose of the robot in the map; odom_...: the one it believes in, when the scene has an\n"
+      "x_m, y_m, yaw_rad: the true pose of the robot in the map; odom_...: the one it believes in, when the scene has "
+      "an\n"
       "odometry. sensor: sonars first, then lasers. beam: one row a beam, when there are lasers; 0 for sonars.\n"
       "inf: no echo; -inf: nearer than the sensor measures.\n\n"
       "Examples:\n"

@@ -71,7 +71,8 @@ void add_run(CLI::App& app) {
   command->get_option("--reliability")
       ->description("Shafer discount in (0, 1] of every sensor (default: each one's own)");
   command->footer(
-      "Writes the same files as `evigrid map`; report.json also has cast_s, the time of the ray casting, and, when the\n"
+      "Writes the same files as `evigrid map`; report.json also has cast_s, the time of the ray casting, and, when "
+      "the\n"
       "scene has an odometry, how far the believed pose strayed from the true one.\n\n"
       "Examples:\n"
       "  evigrid run -o out\n"

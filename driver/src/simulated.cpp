@@ -16,7 +16,7 @@
 namespace evigrid::driver {
 namespace {
 
-constexpr std::size_t kBatch = 512;                          // steps a call: threads stay busy, progress stays smooth
+constexpr std::size_t kBatch = 512;                       // steps a call: threads stay busy, progress stays smooth
 constexpr std::size_t kMostBytes = std::size_t{4} << 30;  // of one run's readings
 
 Pose2 to_engine(const scenes::Pose& p) { return {p.x_m, p.y_m, p.yaw_rad}; }
@@ -54,9 +54,10 @@ void require_memory(const scenes::Scene& scene, std::size_t steps) {
   for (const scenes::LaserSpec& laser : scene.lasers) beams += static_cast<std::size_t>(laser.beams);
   const std::size_t bytes_a_step = beams * sizeof(float) + scene.sonars.size() * sizeof(LogReading) + sizeof(LogScan);
   if (steps > kMostBytes / bytes_a_step) {
-    throw InputError(fmt::format("the run has {} steps of {} ranges each: more than {} GiB; a longer period_s, or fewer "
-                                 "beams, help",
-                                 steps, beams, kMostBytes >> 30));
+    throw InputError(
+        fmt::format("the run has {} steps of {} ranges each: more than {} GiB; a longer period_s, or fewer "
+                    "beams, help",
+                    steps, beams, kMostBytes >> 30));
   }
 }
 
@@ -69,7 +70,8 @@ void append(Log& log, std::size_t sensor, const float* first, std::size_t count)
 
 std::string embedded_scene_names() {
   std::string names;
-  for (const scenes::Embedded& one : scenes::embedded_scenes()) names.append(names.empty() ? "" : ", ").append(one.name);
+  for (const scenes::Embedded& one : scenes::embedded_scenes())
+    names.append(names.empty() ? "" : ", ").append(one.name);
   return names;
 }
 

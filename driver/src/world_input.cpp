@@ -19,6 +19,7 @@
 #include "evigrid/scenes/plan.hpp"
 #include "evigrid/scenes/tour.hpp"
 #include "log/line_reader.hpp"
+#include "widest_place.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -32,7 +33,8 @@ std::string extension(const std::string& path) {
   return end;
 }
 
-raycast::World load_world(const WorldOptions& o) {
+/// `plan` is kept when the world is one.
+raycast::World load_world(const WorldOptions& o, std::optional<scenes::FloorPlan>& plan) {
   if (o.resolution_m && !(*o.resolution_m > 0 && *o.resolution_m <= 1000))
     throw InputError(fmt::format("--resolution: {} is not within (0, 1000]", *o.resolution_m));
   raycast::World world;
@@ -50,7 +52,10 @@ raycast::World load_world(const WorldOptions& o) {
   } else {
     scenes::ImageScale scale;
     scale.resolution_m = o.resolution_m;
-    world.polygons = scenes::trace(scenes::load_plan(o.world, scale));
+    // The tour must not leave what the plan knows by a gap in a wall.
+    const scenes::TraceOptions closed{.unknown_is_wall = true, .border_is_wall = true};
+    plan = scenes::load_plan(o.world, scale);
+    world.polygons = scenes::trace(*plan, closed);
   }
   if (world.walls.empty() && world.boxes.empty() && world.circles.empty() && world.polygons.empty())
     throw InputError(fmt::format("{}: holds no wall", o.world));
@@ -75,13 +80,14 @@ scenes::Pose parse_start(const std::string& text, bool& with_yaw) {
   return {parts[0], parts[1], with_yaw ? parts[2] * std::numbers::pi / 180 : 0};
 }
 
-void add_tour(scenes::Scene& scene, const WorldOptions& o) {
+void add_tour(scenes::Scene& scene, const WorldOptions& o, const std::optional<scenes::FloorPlan>& plan) {
   scenes::TourSpec tour;
   tour.clearance_m = scene.radius_m + kMargin_m;
   bool with_yaw = false;
   try {
     if (o.start.empty()) {
-      tour.start = scenes::find_start(scene.world, tour.clearance_m);
+      const auto widest = plan ? widest_place(*plan, tour.clearance_m) : std::nullopt;
+      tour.start = widest ? *widest : scenes::find_start(scene.world, tour.clearance_m);
     } else {
       const scenes::Pose start = parse_start(o.start, with_yaw);
       tour.start = {start.x_m, start.y_m};
@@ -99,12 +105,13 @@ SceneInput open_world(const WorldOptions& o) {
   SceneInput input{o.world, {}};
   scenes::Scene& scene = input.scene;
   scene.name = std::filesystem::path(o.world).stem().string();
-  scene.world = load_world(o);
+  std::optional<scenes::FloorPlan> plan;
+  scene.world = load_world(o, plan);
   scenes::use_robot(scene, o.robot.empty() ? "laser360" : o.robot);
   scene.map.cell_m = scene.lasers.empty() ? kSonarCell_m : kLaserCell_m;
   scene.trajectory.period_s = kPeriod_s;
   scene.trajectory.seed = static_cast<std::uint64_t>(o.seed.value_or(1));
-  add_tour(scene, o);
+  add_tour(scene, o, plan);
   return input;
 }
 
@@ -129,9 +136,9 @@ SceneInput open_input(const WorldOptions& o) {
       if (!o.scene.empty()) throw InputError("--world: cannot be given beside a scene");
       return open_world(o);
     }
-    for (const auto& [given, name] :
-         {std::pair{!o.start.empty(), "--start"}, {o.resolution_m.has_value(), "--resolution"},
-          {o.height_m.has_value(), "--height"}}) {
+    for (const auto& [given, name] : {std::pair{!o.start.empty(), "--start"},
+                                      {o.resolution_m.has_value(), "--resolution"},
+                                      {o.height_m.has_value(), "--height"}}) {
       if (given) throw InputError(fmt::format("{}: is for --world", name));
     }
     SceneInput input = open_scene(o.scene);

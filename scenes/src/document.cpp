@@ -148,8 +148,7 @@ Pose Table::pose(std::string_view key) {
   if (!parts || parts->size() < 2 || parts->size() > 3) fail_at(node, name, "must be [x, y] or [x, y, yaw_deg]");
   const Limits limits{-kFarthest_m, kFarthest_m};
   Pose pose{checked_number(*parts->get(0), name, limits), checked_number(*parts->get(1), name, limits), 0};
-  if (parts->size() == 3)
-    pose.yaw_rad = checked_number(*parts->get(2), name, {-360, 360}) * (std::numbers::pi / 180);
+  if (parts->size() == 3) pose.yaw_rad = checked_number(*parts->get(2), name, {-360, 360}) * (std::numbers::pi / 180);
   return pose;
 }
 

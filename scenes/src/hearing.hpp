@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the sonars of a robot hear at one moment, or at several: their own first echoes; when the scene asks for it, also
-// echoes by way of a second surface and the echoes of other sonars that ping at the same moment.
+// What the sonars of a robot hear at one moment, or at several: their own first echoes; when the scene asks for it,
+// also echoes by way of a second surface and the echoes of other sonars that ping at the same moment.
 #pragma once
 #include <span>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A robot: a ring of equal sonars that look outwards, single sonars, lasers, and how well it knows its way. What a sonar
-// does not say is taken from [robot.sensor].
+// A robot: a ring of equal sonars that look outwards, single sonars, lasers, and how well it knows its way. What a
+// sonar does not say is taken from [robot.sensor].
 #include <cmath>
 #include <numbers>
 

@@ -80,7 +80,9 @@ TrajectorySpec read_trajectory(Table t, const Scene& scene) {
   run.seed = static_cast<std::uint64_t>(t.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   t.refuse_unknown_keys();
   if (longest_s(run) / run.period_s > static_cast<double>(kMostSteps))
-    t.fail(kind == "tour" ? "kind" : run.legs.empty() ? "waypoints" : "velocity",
+    t.fail(kind == "tour"     ? "kind"
+           : run.legs.empty() ? "waypoints"
+                              : "velocity",
            "the run would have more than " + std::to_string(kMostSteps) + " steps");
   return run;
 }

@@ -30,9 +30,8 @@ void put_under(toml::table& over, toml::table&& under) {
   for (auto&& [key, node] : under) {
     toml::node* mine = over.get(key.str());
     if (!mine) {
-      std::move(node).visit([&, &k = key](auto&& value) {
-        over.insert_or_assign(k, std::forward<decltype(value)>(value));
-      });
+      std::move(node).visit(
+          [&, &k = key](auto&& value) { over.insert_or_assign(k, std::forward<decltype(value)>(value)); });
     } else if (mine->is_table() && node.is_table()) {
       put_under(*mine->as_table(), std::move(*node.as_table()));
     }

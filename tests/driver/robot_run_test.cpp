@@ -44,7 +44,8 @@ Json report(const std::vector<std::string>& arguments) {
 TEST(Run, TheDefaultSceneKeepsItsMap) {
   const TempDir dir;
   for (const std::string threads : {"1", "3"}) {
-    EXPECT_EQ(report({"run", "-o", dir.at("out"), "--json", "-", "--threads", threads})["map_hash"], "6f612b4bed222195");
+    EXPECT_EQ(report({"run", "-o", dir.at("out"), "--json", "-", "--threads", threads})["map_hash"],
+              "6f612b4bed222195");
   }
   EXPECT_EQ(report({"run", "default", "-o", dir.at("out"), "--json", "-"})["map_hash"], "6f612b4bed222195");
 }
@@ -83,8 +84,8 @@ TEST(Run, OdometryIsMappedWithAndItsErrorIsReported) {
   const TempDir dir;
   const std::string scene = dir.write("drift.toml", kMixed + "[robot.odometry]\ndrift_left = 0.02\n");
   const Json r = report({"run", scene, "-o", dir.at("out"), "--json", "-"});
-  // 4 m straight with a track of 0.35 m: the left wheel runs ahead by 8 cm, which turns the robot by 0.08/0.35 rad to the
-  // right; the quarter turn to the left costs it another 2 % of half the track's arc, 2 m more the rest.
+  // 4 m straight with a track of 0.35 m: the left wheel runs ahead by 8 cm, which turns the robot by 0.08/0.35 rad to
+  // the right; the quarter turn to the left costs it another 2 % of half the track's arc, 2 m more the rest.
   const double turned_rad = (0.02 * 4 - 0.02 * 0.175 * M_PI / 2 + 0.02 * 2) / 0.35;
   EXPECT_NEAR(r["odometry"]["final_heading_error_deg"].get<double>(), -turned_rad * 180 / M_PI, 1e-6);
   EXPECT_GT(r["odometry"]["final_position_error_m"], 0.3);
@@ -150,8 +151,8 @@ TEST(RunWorld, APlanWithoutAScene) {
   EXPECT_EQ(r["cell_m"], 0.05);
   EXPECT_GE(r["size_cells"][0], 116);
   EXPECT_LE(r["size_cells"][0], 130);
-  const Json s = report({"run", "--world", file, "--resolution", "0.1", "--robot", "pioneer16", "--start", "1,1,90", "-o",
-                         dir.at("out"), "--json", "-"});
+  const Json s = report({"run", "--world", file, "--resolution", "0.1", "--robot", "pioneer16", "--start", "1,1,90",
+                         "-o", dir.at("out"), "--json", "-"});
   EXPECT_EQ(s["cell_m"], 0.1);
   EXPECT_EQ(s["sensors"].size(), 16u);
   const auto failure = [&](std::vector<std::string> more) {

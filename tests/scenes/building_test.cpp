@@ -28,7 +28,8 @@ std::uint64_t hash(const World& world) {
     for (int k = 0; k < 8; ++k) h = (h ^ (std::bit_cast<std::uint64_t>(v) >> (8 * k) & 0xff)) * 0x100000001b3u;
   };
   for (const auto& b : world.boxes)
-    for (const double v : {b.centre.x_m, b.centre.y_m, b.length_m, b.width_m, b.yaw_rad, b.material.critical_incidence_rad})
+    for (const double v :
+         {b.centre.x_m, b.centre.y_m, b.length_m, b.width_m, b.yaw_rad, b.material.critical_incidence_rad})
       add(v);
   for (const auto& c : world.circles)
     for (const double v : {c.centre.x_m, c.centre.y_m, c.radius_m, c.material.critical_incidence_rad}) add(v);
@@ -39,8 +40,7 @@ std::uint64_t hash(const World& world) {
 class Walk {
  public:
   Walk(const World& world, const Layout& layout, const BuildingSpec& spec)
-      : grid_(rasterise(world, kCell_m, metres(layout.rooms.front().doors.front()))),
-        reached_(grid_.cells.size(), 0) {
+      : grid_(rasterise(world, kCell_m, metres(layout.rooms.front().doors.front()))), reached_(grid_.cells.size(), 0) {
     const auto r = static_cast<std::int64_t>((spec.door_m / 2 - 1.5 * kCell_m) / kCell_m);
     std::vector<std::uint8_t> near(grid_.cells.size(), 0);
     for (std::int64_t i = 0; i < std::ssize(grid_.cells); ++i) {
@@ -56,9 +56,11 @@ class Walk {
     while (!open.empty()) {
       const std::int64_t i = open.back();
       open.pop_back();
-      if (i < 0 || i >= std::ssize(near) || near[static_cast<std::size_t>(i)] || reached_[static_cast<std::size_t>(i)]) continue;
+      if (i < 0 || i >= std::ssize(near) || near[static_cast<std::size_t>(i)] || reached_[static_cast<std::size_t>(i)])
+        continue;
       reached_[static_cast<std::size_t>(i)] = 1;
-      for (const std::int64_t step : {std::int64_t{1}, std::int64_t{-1}, grid_.width, -grid_.width}) open.push_back(i + step);
+      for (const std::int64_t step : {std::int64_t{1}, std::int64_t{-1}, grid_.width, -grid_.width})
+        open.push_back(i + step);
     }
   }
   [[nodiscard]] bool reaches(const Rect& r) const { return reached_[static_cast<std::size_t>(cell(r))] != 0; }
@@ -67,8 +69,8 @@ class Walk {
     for (std::int64_t i = 0; i < std::ssize(reached_); ++i) {
       const double x = (static_cast<double>(grid_.x + i % grid_.width) + 0.5) * kCell_m * 1000;
       const double y = (static_cast<double>(grid_.y + i / grid_.width) + 0.5) * kCell_m * 1000;
-      count += reached_[static_cast<std::size_t>(i)] && x > static_cast<double>(r.x0) && x < static_cast<double>(r.x1) &&
-               y > static_cast<double>(r.y0) && y < static_cast<double>(r.y1);
+      count += reached_[static_cast<std::size_t>(i)] && x > static_cast<double>(r.x0) &&
+               x < static_cast<double>(r.x1) && y > static_cast<double>(r.y0) && y < static_cast<double>(r.y1);
     }
     return count > 0;
   }
@@ -143,7 +145,8 @@ TEST(Building, FurnitureStandsInItsRoomAndNotInDoors) {
       for (const Rect& d : room.doors) {
         // Half a metre in front of the opening on both sides.
         const bool lies_along_x = d.width() == 1000;
-        const Rect step = lies_along_x ? Rect{d.x0, d.y0 - 500, d.x1, d.y1 + 500} : Rect{d.x0 - 500, d.y0, d.x1 + 500, d.y1};
+        const Rect step =
+            lies_along_x ? Rect{d.x0, d.y0 - 500, d.x1, d.y1 + 500} : Rect{d.x0 - 500, d.y0, d.x1 + 500, d.y1};
         EXPECT_FALSE(overlap(p, step));
       }
     }

@@ -74,7 +74,8 @@ std::string refusal(const std::string& text, const std::string& extension) {
 }
 
 TEST(MeshRead, ObjFacesOfEveryForm) {
-  const std::string vertices = "mtllib missing.mtl\no thing\nv 0 0 0\nv +1 0 0 0.5\r\n\tv 1 1e0 0 1 0 0\rv 0 1 .0\nvn 0 0 1\nvt 0 0\n";
+  const std::string vertices =
+      "mtllib missing.mtl\no thing\nv 0 0 0\nv +1 0 0 0.5\r\n\tv 1 1e0 0 1 0 0\rv 0 1 .0\nvn 0 0 1\nvt 0 0\n";
   const Mesh mesh = load(vertices + "usemtl red\ng a b\ns off\nf 1/1/1 2//1 3/1\nf -4 -2 -1 # the rest\n", ".obj");
   EXPECT_EQ(mesh.vertices.size(), 4u);
   const std::vector<std::array<std::uint32_t, 3>> faces{{0, 1, 2}, {0, 2, 3}};
@@ -97,7 +98,8 @@ TEST(MeshRead, ObjFacesOfEveryForm) {
 TEST(MeshRead, AConcaveFaceIsCutWithinItself) {
   // A U of area 7, upright in the x–z plane; in both directions of turning.
   for (const char* face : {"f 1 2 3 4 5 6 7 8\n", "f 8 7 6 5 4 3 2 1\n"}) {
-    const Mesh u = load(std::string("v 0 5 0\nv 3 5 0\nv 3 5 3\nv 2 5 3\nv 2 5 1\nv 1 5 1\nv 1 5 3\nv 0 5 3\n") + face, ".obj");
+    const Mesh u =
+        load(std::string("v 0 5 0\nv 3 5 0\nv 3 5 3\nv 2 5 3\nv 2 5 1\nv 1 5 1\nv 1 5 3\nv 0 5 3\n") + face, ".obj");
     ASSERT_EQ(u.faces.size(), 6u);
     double area = 0;
     for (const auto& f : u.faces) {
@@ -122,8 +124,11 @@ TEST(MeshRead, PlyRefusals) {
   const std::string face = "element face 1\nproperty list uchar int vertex_index\n";
   const std::string points = "0 0 0\n1 0 0\n0 1 1\n";
   EXPECT_EQ(load(with_header(vertex + face, points + "3 0 1 2"), ".ply").faces.size(), 1u);
-  const auto expect = [](const std::string& text, const std::string& message) { EXPECT_EQ(refusal(text, ".ply"), "mesh.ply:" + message); };
-  expect(with_header(vertex + face, points + "3 0 1 3\n"), "13: face: a vertex index is out of range: the mesh has 3 vertices");
+  const auto expect = [](const std::string& text, const std::string& message) {
+    EXPECT_EQ(refusal(text, ".ply"), "mesh.ply:" + message);
+  };
+  expect(with_header(vertex + face, points + "3 0 1 3\n"),
+         "13: face: a vertex index is out of range: the mesh has 3 vertices");
   expect(with_header(vertex + face, points + "3 0 1 -1\n"), "13: face: a vertex index is out of range");
   expect(with_header(vertex + face, points + "2 0 1\n"), "13: face: has 2 corners");
   expect(with_header(vertex + face, points + "-3 0 1 2\n"), "13: vertex_index: a list has a negative count");
@@ -131,7 +136,8 @@ TEST(MeshRead, PlyRefusals) {
   expect(with_header(vertex + face, "0 0 0\n1 nan 0\n0 0 0\n3 0 1 2\n"), "11: y: is not finite");
   expect(with_header(vertex + face, "0 0 0\n1 x 0\n0 0 0\n3 0 1 2\n"), "11: y: is not a number of its type");
   expect(with_header(vertex, points), " the mesh has no faces");
-  expect(with_header("element vertex 99999999999999\nproperty float x\n"), "3: vertex: the header promises 99999999999999 rows, 0 bytes are left");
+  expect(with_header("element vertex 99999999999999\nproperty float x\n"),
+         "3: vertex: the header promises 99999999999999 rows, 0 bytes are left");
   expect(with_header("element vertex 1\n"), "3: vertex: has rows but no properties");
   expect(with_header("element vertex -1\n"), "3: element: the count is not a number from 0 on");
   expect(with_header("property float x\n"), "3: property: stands before the first element");
@@ -146,9 +152,11 @@ TEST(MeshRead, PlyRefusals) {
 }
 
 TEST(MeshRead, AHugeListCountAsksForNoMemory) {
-  std::string text = "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uint uint vertex_indices\nend_header\n";
+  std::string text =
+      "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uint uint vertex_indices\nend_header\n";
   put<std::uint32_t>(text, 0xffffffffu, false);
-  EXPECT_NE(refusal(text, ".ply").find("byte 105: vertex_indices: the file ends within a list"), std::string::npos) << refusal(text, ".ply");
+  EXPECT_NE(refusal(text, ".ply").find("byte 105: vertex_indices: the file ends within a list"), std::string::npos)
+      << refusal(text, ".ply");
 }
 
 TEST(MeshRead, FromAFile) {

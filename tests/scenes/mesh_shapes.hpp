@@ -66,7 +66,8 @@ inline std::string ply_of(const Mesh& mesh, const std::string& format) {
        << "element face " << mesh.faces.size() << "\nproperty uchar quality\nproperty list uchar uint vertex_indices\n"
        << "element edge 2\nproperty list ushort short ends\nproperty double weight\n"
        << "element vertex " << mesh.vertices.size()
-       << "\nproperty double y\nproperty uchar red\nproperty list int float extra\nproperty double x\nproperty double z\n"
+       << "\nproperty double y\nproperty uchar red\nproperty list int float extra\nproperty double x\nproperty double "
+          "z\n"
        << "end_header\n";
   std::string out = head.str();
   if (format == "ascii") {

@@ -57,7 +57,8 @@ TEST(Slice, ABoxGivesFourWalls) {
     // Also exactly through layers of vertices, and at the lower face; the upper face is not below anything.
     for (const double height_m : {0.3, 0.5, 1.0 / 7, 6.0 / 7, 0.999999, 1.0})
       expect_sides(slice(box, {.height_m = height_m}), kSquare, 1e-9);
-    for (const double height_m : {0.0, -0.1, 1.0000001}) EXPECT_TRUE(slice(box, {.height_m = height_m}).empty()) << height_m;
+    for (const double height_m : {0.0, -0.1, 1.0000001})
+      EXPECT_TRUE(slice(box, {.height_m = height_m}).empty()) << height_m;
   }
 }
 
@@ -65,7 +66,8 @@ TEST(Slice, PlacementScalesTurnsAndMoves) {
   Mesh box = prism(kSquare, 0, 1);
   for (auto& v : box.vertices) v = {v[0] * 1000, v[2] * 1000, -v[1] * 1000};  // millimetres, y up
   const double yaw = 0.7, c = std::cos(yaw), s = std::sin(yaw);
-  const auto walls = slice(box, {.scale = 0.001, .height_m = 0.4, .T_map_mesh = {5, -3, yaw}, .y_up = true, .material = {0.5, 0.25}});
+  const auto walls =
+      slice(box, {.scale = 0.001, .height_m = 0.4, .T_map_mesh = {5, -3, yaw}, .y_up = true, .material = {0.5, 0.25}});
   std::vector<Point> expected;
   for (const Point& p : kSquare) expected.push_back({5 + c * p.x_m - s * p.y_m, -3 + s * p.x_m + c * p.y_m});
   expect_sides(walls, expected, 1e-9);
@@ -113,7 +115,8 @@ TEST(Slice, RandomClosedSolidsHaveClosedOutlines) {
       for (int i = 0; i < n; ++i) {
         const double r = std::uniform_real_distribution<>(0.7, 1.3)(random), t = std::numbers::pi * k / rings;
         const double a = 2 * std::numbers::pi * i / n;
-        ball.vertices.push_back({r * std::sin(t) * std::cos(a), r * std::sin(t) * std::sin(a), std::round(-10 * r * std::cos(t)) / 10});
+        ball.vertices.push_back(
+            {r * std::sin(t) * std::cos(a), r * std::sin(t) * std::sin(a), std::round(-10 * r * std::cos(t)) / 10});
       }
     ball.vertices.push_back({0, 0, 1});
     const auto at = [&](int k, int i) { return static_cast<std::uint32_t>(1 + (k - 1) * n + i % n); };
@@ -123,7 +126,8 @@ TEST(Slice, RandomClosedSolidsHaveClosedOutlines) {
         ball.faces.push_back({at(k, i), at(k, i + 1), at(k + 1, i + 1)});
         ball.faces.push_back({at(k, i), at(k + 1, i + 1), at(k + 1, i)});
       }
-      ball.faces.push_back({at(rings - 1, i), at(rings - 1, i + 1), static_cast<std::uint32_t>(ball.vertices.size() - 1)});
+      ball.faces.push_back(
+          {at(rings - 1, i), at(rings - 1, i + 1), static_cast<std::uint32_t>(ball.vertices.size() - 1)});
     }
     for (const double height_m : {-0.5, 0.0, 0.1, 0.3, 0.7}) {
       const auto walls = slice(ball, {.height_m = height_m});
@@ -137,8 +141,9 @@ TEST(Slice, RandomClosedSolidsHaveClosedOutlines) {
           ridges.emplace(b[0], b[1]);
         }
       expect_closed(walls, ridges);
-      in_plane += std::count_if(ball.vertices.begin(), ball.vertices.end(), [&](const Vertex& v) { return v[2] == height_m; }) -
-                  std::ssize(ridges);
+      in_plane +=
+          std::count_if(ball.vertices.begin(), ball.vertices.end(), [&](const Vertex& v) { return v[2] == height_m; }) -
+          std::ssize(ridges);
     }
   }
   EXPECT_GT(in_plane, 200);  // vertices at the very height, not on a ridge
@@ -149,7 +154,8 @@ TEST(Slice, AFinelyTessellatedWallIsOnePiece) {
   const auto quad = [&](double t0, double t1, bool back) {
     const auto first = static_cast<std::uint32_t>(wall.vertices.size());
     for (const double z : {0.0, 2.5})
-      for (const double t : {t0, t1}) wall.vertices.push_back({static_cast<float>(1 + 8 * t), static_cast<float>(2 + 6 * t), z});
+      for (const double t : {t0, t1})
+        wall.vertices.push_back({static_cast<float>(1 + 8 * t), static_cast<float>(2 + 6 * t), z});
     if (back) {
       wall.faces.push_back({first, first + 1, first + 2});
       wall.faces.push_back({first + 1, first + 2, first + 3});

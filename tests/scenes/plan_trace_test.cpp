@@ -223,5 +223,32 @@ TEST(Trace, SimplifiedOutlinesStayWithinTheTolerance) {
   EXPECT_LT(after, before * 6 / 10);
 }
 
+TEST(Trace, SimplifiedOutlinesKeepJointsAndSmallThings) {
+  // Up to three pixels across: a post and a cross stay as they are, whatever the tolerance.
+  const FloorPlan small = plan_of("...........\n.##...#....\n.##..###...\n......#....\n...........\n");
+  EXPECT_EQ(text_of(trace(small, {.simplify_px = 2})), text_of(trace(small, kExact)));
+  // Corners where two walls touch stay on every outline that passes there.
+  std::mt19937 random(5);
+  std::size_t joints = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    FloorPlan plan;
+    plan.resolution_m = plan.resolution_y_m = 1;
+    plan.width = plan.height = 16;
+    for (int i = 0; i < 256; ++i) plan.cells.push_back(random() % 2 == 0 ? PlanCell::occupied : PlanCell::free);
+    for (const double tolerance : {0.75, 2.0}) {
+      const std::vector<Polygon> simple = trace(plan, {.simplify_px = tolerance});
+      for (std::int64_t y = 1; y < 16; ++y)
+        for (std::int64_t x = 1; x < 16; ++x) {
+          if (wall(plan, x, y) != wall(plan, x - 1, y - 1) || wall(plan, x - 1, y) != wall(plan, x, y - 1) ||
+              wall(plan, x, y) == wall(plan, x - 1, y))
+            continue;
+          ++joints;
+          ASSERT_LE(distance({static_cast<double>(x), static_cast<double>(y)}, simple), 1e-9) << x << ' ' << y;
+        }
+    }
+  }
+  EXPECT_GT(joints, 5000u);
+}
+
 }  // namespace
 }  // namespace evigrid::scenes

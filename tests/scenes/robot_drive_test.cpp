@@ -40,7 +40,8 @@ TEST(Velocity, AnArcIsAnExactCircle) {
 
 TEST(Velocity, LegsFollowOneAnother) {
   // Ahead, a quarter to the right on a circle of 1 m, a turn on the spot, backwards, standing still.
-  const auto poses = drive(legs({{2, 0.5, 0}, {1, kPi / 2, -kPi / 2}, {1, 0, kPi}, {3, -0.2, 0}, {1, 0, 0}}, {0, 0, 0}, 1));
+  const auto poses =
+      drive(legs({{2, 0.5, 0}, {1, kPi / 2, -kPi / 2}, {1, 0, kPi}, {3, -0.2, 0}, {1, 0, 0}}, {0, 0, 0}, 1));
   ASSERT_EQ(poses.size(), 9u);
   expect_pose(poses[1], 0.5, 0, 0);
   expect_pose(poses[2], 1, 0, 0);
@@ -80,7 +81,8 @@ TrajectorySpec there_and_back() {
 }
 
 TEST(Odometry, WithoutErrorsItIsTheTruth) {
-  for (const TrajectorySpec& t : {there_and_back(), legs({{3, 1, 0.5}, {1.234, -0.4, -1}, {2, 0, 2}}, {1, 2, 3}, 0.11)}) {
+  for (const TrajectorySpec& t :
+       {there_and_back(), legs({{3, 1, 0.5}, {1.234, -0.4, -1}, {2, 0, 2}}, {1, 2, 3}, 0.11)}) {
     const auto truth = drive(t), believed = dead_reckoning(t, {.used = true, .track_m = 0.4});
     ASSERT_EQ(truth.size(), believed.size());
     for (std::size_t i = 0; i < truth.size(); ++i)
@@ -214,7 +216,8 @@ TEST(Trajectory, BadFields) {
   const std::pair<std::string, std::string> matrix[] = {
       {scene_with("", leg), "s.toml:8: trajectory.start: is missing"},
       {scene_with("", "start = [0]\n" + leg), "s.toml:10: trajectory.start: must be [x, y] or [x, y, yaw_deg]"},
-      {scene_with("", "start = [0, 0, 400]\n" + leg), "s.toml:10: trajectory.start: is 400, must be within [-360, 360]"},
+      {scene_with("", "start = [0, 0, 400]\n" + leg),
+       "s.toml:10: trajectory.start: is 400, must be within [-360, 360]"},
       {scene_with("", "waypoints = [[0, 0]]\n" + leg),
        "s.toml:11: trajectory.velocity: cannot be given beside waypoints"},
       {scene_with("", "kind = \"random\"\n"), "s.toml:10: trajectory.kind: is 'random', must be \"tour\" or left out"},
@@ -231,7 +234,8 @@ TEST(Trajectory, BadFields) {
       {scene_with("[[mover]]\nwaypoints = [[0, 1]]\n"),
        "s.toml:8: mover[0]: has no shape: neither walls nor boxes, circles or polygons"},
       {scene_with("[[mover]]\n" + box), "s.toml:8: mover[0].waypoints: is missing"},
-      {scene_with("[[mover]]\nwaypoints = [[0, 1]]\nloop = 1\n" + box), "s.toml:10: mover[0].loop: must be true or false"},
+      {scene_with("[[mover]]\nwaypoints = [[0, 1]]\nloop = 1\n" + box),
+       "s.toml:10: mover[0].loop: must be true or false"},
       {scene_with("[[mover]]\nwaypoints = [[0, 1]]\nperiod_s = 1\n" + box),
        "s.toml:10: mover[0].period_s: is unknown; did you mean speed_m_s?"},
       {scene_with("[[mover]]\nwaypoints = [[0, 1]]\n" + box + "material = \"fur\"\n"),
@@ -241,11 +245,13 @@ TEST(Trajectory, BadFields) {
 }
 
 TEST(Trajectory, ATourKeepsItsClearance) {
-  const Scene s = parse_scene(scene_with("", "kind = \"tour\"\nstart = [0, 0]\nspacing_m = 2\nclearance_m = 0.5\n"), "s.toml");
+  const Scene s =
+      parse_scene(scene_with("", "kind = \"tour\"\nstart = [0, 0]\nspacing_m = 2\nclearance_m = 0.5\n"), "s.toml");
   ASSERT_GT(s.trajectory.waypoints.size(), 1u);
   EXPECT_EQ(s.trajectory.waypoints[0].x_m, 0);
   for (const Pose& p : drive(s.trajectory)) EXPECT_LT(std::max(std::abs(p.x_m), std::abs(p.y_m)), 4.5 + 0.1);
-  EXPECT_EQ(complaint(scene_with("", "kind = \"tour\"\nstart = [4.99, 0]\n")).substr(0, 27), "s.toml:11: trajectory.start");
+  EXPECT_EQ(complaint(scene_with("", "kind = \"tour\"\nstart = [4.99, 0]\n")).substr(0, 27),
+            "s.toml:11: trajectory.start");
 }
 
 }  // namespace

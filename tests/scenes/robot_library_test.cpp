@@ -48,8 +48,8 @@ TEST(Library, EveryRobotAndEverySceneLoads) {
     EXPECT_EQ(other.lasers.size(), s.lasers.size());
     EXPECT_EQ(other.radius_m, s.radius_m);
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"hughes24", "pioneer16", "pioneer16_3dx", "asharif8x8", "ring8", "laser180",
-                                               "laser360"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"hughes24", "pioneer16", "pioneer16_3dx", "asharif8x8", "ring8",
+                                               "laser180", "laser360"}));
   for (const Embedded& scene : embedded_scenes()) {
     SCOPED_TRACE(scene.name);
     const Scene s = parse_scene(scene.text, scene.name);
@@ -145,7 +145,7 @@ TEST(UseRobot, TheSceneOutranksTheRobot) {
   EXPECT_EQ(s.radius_m, 0.5);
   ASSERT_EQ(s.sonars.size(), 4u);
   EXPECT_EQ(s.sonars[0].max_range_m, 3);
-  EXPECT_EQ(s.sonars[0].min_range_m, 0.09);                    // the robot's
+  EXPECT_EQ(s.sonars[0].min_range_m, 0.09);                   // the robot's
   EXPECT_NEAR(s.sonars[0].T_robot_sensor.x_m, 0.353, 1e-12);  // the robot's
   ASSERT_EQ(s.lasers.size(), 1u);
   const LaserSpec& laser = s.lasers[0];
@@ -188,8 +188,9 @@ TEST(UseRobot, AFileBesideTheScene) {
     return "accepted";
   };
   const std::string in = folder.string() + "/";
-  write("mine.toml", "name = \"mine\"\n[robot.sensor]\nmodel = \"li2014\"\naperture_deg = 15\nmax_range_m = 4\n"
-                     "[robot.ring]\ncount = 3\nradius_m = 0.2\n");
+  write("mine.toml",
+        "name = \"mine\"\n[robot.sensor]\nmodel = \"li2014\"\naperture_deg = 15\nmax_range_m = 4\n"
+        "[robot.ring]\ncount = 3\nradius_m = 0.2\n");
   write("a.toml", scene_with("[robot]\nuse = \"mine.toml\"\n"));
   EXPECT_EQ(load_scene(folder / "a.toml").sonars.size(), 3u);
   Scene s;
@@ -199,11 +200,13 @@ TEST(UseRobot, AFileBesideTheScene) {
   write("gone.toml", scene_with("[robot]\nuse = \"none.toml\"\n"));
   EXPECT_EQ(failure("gone.toml"), in + "gone.toml:9: robot.use: there is no such file: " + in + "none.toml");
   // A fault inside the robot's file is told with that file and its line.
-  write("mine.toml", "[robot.sensor]\nmodel = \"li2014\"\naperture_deg = 99\nmax_range_m = 4\n[robot.ring]\ncount = 3\n"
-                     "radius_m = 0.2\n");
+  write("mine.toml",
+        "[robot.sensor]\nmodel = \"li2014\"\naperture_deg = 99\nmax_range_m = 4\n[robot.ring]\ncount = 3\n"
+        "radius_m = 0.2\n");
   EXPECT_EQ(failure("a.toml"), in + "mine.toml:3: robot.sensor.aperture_deg: is 99, must be within (0, 60]");
-  write("mine.toml", "[robot.sensor]\nmodel = \"li2014\"\naperture_deg = 9\nmax_range_m = 4\n[robot.ring]\ncount = 3\n"
-                     "radius_n = 0.2\n");
+  write("mine.toml",
+        "[robot.sensor]\nmodel = \"li2014\"\naperture_deg = 9\nmax_range_m = 4\n[robot.ring]\ncount = 3\n"
+        "radius_n = 0.2\n");
   EXPECT_EQ(failure("a.toml"), in + "mine.toml:5: robot.ring.radius_m: is missing");
   write("mine.toml", "[robot]\nuse = \"hughes24\"\n");
   EXPECT_EQ(failure("a.toml"), in + "mine.toml:2: robot.use: a robot file cannot use another robot");
@@ -215,11 +218,10 @@ TEST(UseRobot, AFileBesideTheScene) {
 }
 
 TEST(UseRobot, BadFields) {
-  const std::string known =
-      "known: hughes24, pioneer16, pioneer16_3dx, asharif8x8, ring8, laser180, laser360";
+  const std::string known = "known: hughes24, pioneer16, pioneer16_3dx, asharif8x8, ring8, laser180, laser360";
   const auto laser = [](const std::string& line) {
-    const std::string good[] = {"x_m = 0", "y_m = 0", "yaw_deg = 0", "first_deg = 0", "step_deg = 1", "beams = 10",
-                                "max_range_m = 8"};
+    const std::string good[] = {"x_m = 0",      "y_m = 0",    "yaw_deg = 0",    "first_deg = 0",
+                                "step_deg = 1", "beams = 10", "max_range_m = 8"};
     std::string text = "[[robot.laser]]\n";
     for (const std::string& field : good)
       if (field.substr(0, field.find(' ')) != line.substr(0, line.find(' '))) text += field + "\n";

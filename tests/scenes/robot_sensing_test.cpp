@@ -88,7 +88,8 @@ TEST(Lasers, EveryBeamHasNoiseOfItsOwn) {
     const Step a = truth.step(i), b = run.step(i);
     EXPECT_TRUE(same(a.ranges_m, b.ranges_m));  // the sonars have not noticed
     for (std::size_t k = 0; k < 181; ++k) {
-      if (!std::isfinite(a.beams_m[k]) || !std::isfinite(b.beams_m[k]) || a.beams_m[k] > 5 || a.beams_m[k] < 1.2) continue;
+      if (!std::isfinite(a.beams_m[k]) || !std::isfinite(b.beams_m[k]) || a.beams_m[k] > 5 || a.beams_m[k] < 1.2)
+        continue;
       const double z = (b.beams_m[k] - a.beams_m[k]) / (0.02 + 0.01 * a.beams_m[k]);
       sum += z;
       sum2 += z * z;
@@ -149,8 +150,8 @@ TEST(Echoes, SecondBounceOnlyEverAddsReadings) {
 }
 
 TEST(Echoes, CrossTalkHappensWithinAGroupOnly) {
-  // Two sonars side by side before a wall, the second one looking away from it into the open: what it hears is the first
-  // one's sound, by half the way first → wall → second.
+  // Two sonars side by side before a wall, the second one looking away from it into the open: what it hears is the
+  // first one's sound, by half the way first → wall → second.
   Scene s;
   s.world.walls = {{{-10, 2}, {10, 2}, {}}};
   SonarSpec ahead;

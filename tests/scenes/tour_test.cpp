@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -43,7 +44,8 @@ double clearance(const World& world, Point p) {
     }
   }
   for (const auto& circle : world.circles)
-    least = std::min(least, std::abs(std::hypot(p.x_m - circle.centre.x_m, p.y_m - circle.centre.y_m) - circle.radius_m));
+    least =
+        std::min(least, std::abs(std::hypot(p.x_m - circle.centre.x_m, p.y_m - circle.centre.y_m) - circle.radius_m));
   for (const auto& polygon : world.polygons)
     for (std::size_t k = 0; k < polygon.vertices.size(); ++k)
       least = std::min(least, to_segment(p, polygon.vertices[k], polygon.vertices[(k + 1) % polygon.vertices.size()]));
@@ -71,7 +73,8 @@ double distance_to(const std::vector<Point>& tour, Point p) {
 std::vector<Point> places(const World& world, Point start, double clearance_m) {
   const Extent e = extent(world);
   const double step = 0.1;
-  const int w = static_cast<int>((e.high.x_m - e.low.x_m) / step), h = static_cast<int>((e.high.y_m - e.low.y_m) / step);
+  const int w = static_cast<int>((e.high.x_m - e.low.x_m) / step),
+            h = static_cast<int>((e.high.y_m - e.low.y_m) / step);
   const auto at = [&](int i) { return Point{e.low.x_m + step * (i % w), e.low.y_m + step * (i / w)}; };
   std::vector<std::uint8_t> state(static_cast<std::size_t>(w * h), 0);  // 1: can stand, 2: reached
   for (int i = 0; i < w * h; ++i) state[static_cast<std::size_t>(i)] = clearance(world, at(i)) >= clearance_m + 0.03;
@@ -143,7 +146,8 @@ TEST(Tour, NoThinWallIsCrossedWithAClearanceBelowTheCell) {
   World world;
   world.polygons.push_back({{{0, 0}, {4, 0}, {4, 3}, {0, 3}}, {}});
   world.walls.push_back({{2, 0}, {2, 3}, {}});
-  const std::vector<Point> tour = make_tour(world, {.start = {1, 1}, .clearance_m = 0.03, .spacing_m = 0.8, .cell_m = 0.1});
+  const std::vector<Point> tour =
+      make_tour(world, {.start = {1, 1}, .clearance_m = 0.03, .spacing_m = 0.8, .cell_m = 0.1});
   EXPECT_GE(least_clearance(world, tour), 0.02);
   for (const Point& p : tour) EXPECT_LT(p.x_m, 2);
 }
@@ -184,8 +188,14 @@ TEST(Tour, AStartTooNearIsRefusedAndTheNearestGoodPlaceNamed) {
   const std::string crowded = refusal([&] { return make_tour(world, {.start = {1, 1}, .clearance_m = 5}); });
   EXPECT_NE(crowded.find("no place in this world"), std::string::npos) << crowded;
   EXPECT_NE(refusal([&] { return make_tour(world, {.start = {NAN, 1}}); }).find("start"), std::string::npos);
-  EXPECT_NE(refusal([&] { return make_tour(world, {.start = {1, 1}, .spacing_m = 0}); }).find("spacing_m"), std::string::npos);
-  EXPECT_NE(refusal([&] { return make_tour(world, {.start = {1, 1}, .clearance_m = 0}); }).find("clearance_m"), std::string::npos);
+  EXPECT_NE(refusal([&] {
+              return make_tour(world, {.start = {1, 1}, .spacing_m = 0});
+            }).find("spacing_m"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              return make_tour(world, {.start = {1, 1}, .clearance_m = 0});
+            }).find("clearance_m"),
+            std::string::npos);
   EXPECT_NE(refusal([&] { return find_start(world, 5); }).find("no place"), std::string::npos);
 }
 

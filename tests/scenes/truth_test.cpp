@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 #include <random>
@@ -114,9 +115,12 @@ TEST(Truth, RandomWorldsAreThoseOfBruteForce) {
     const auto number = [&](double low, double high) {
       const double v = std::uniform_real_distribution<>(low, high)(random);
       switch (random() % 3) {
-        case 0: return std::round(v / cell_m) * cell_m;
-        case 1: return std::round(v / cell_m * 65536) / 65536 * cell_m;
-        default: return v;
+        case 0:
+          return std::round(v / cell_m) * cell_m;
+        case 1:
+          return std::round(v / cell_m * 65536) / 65536 * cell_m;
+        default:
+          return v;
       }
     };
     const auto point = [&] { return Point{number(-3, 3), number(-3, 3)}; };

@@ -103,7 +103,8 @@ class Builder {
     const Mm e0 = upwards ? (y0 == r.y0 ? y0 : y0 - half) : (y1 == r.y1 ? y1 - m_.wall : y1 - half), e1 = e0 + m_.wall;
     std::vector<std::size_t> rooms;
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-      const Mm left = i == 0 ? x[i] + m_.wall : x[i] + rest, right = i + 2 == x.size() ? x[i + 1] - m_.wall : x[i + 1] - half;
+      const Mm left = i == 0 ? x[i] + m_.wall : x[i] + rest,
+               right = i + 2 == x.size() ? x[i + 1] - m_.wall : x[i + 1] - half;
       const Rect inside{left, low, right, high};
       rooms.push_back(out_->rooms.size());
       out_->rooms.push_back({exchange_ ? exchanged(inside) : inside, {}});
@@ -124,7 +125,8 @@ class Builder {
       const Mm at = draws_.between(low + y_jamb, high - y_jamb - m_.door);
       wall({between.x0, y0, between.x1, at}, Finish::plaster);
       wall({between.x0, at + m_.door, between.x1, y1}, Finish::plaster);
-      for (const std::size_t room : {rooms[i - 1], rooms[i]}) add_door(room, {between.x0, at, between.x1, at + m_.door});
+      for (const std::size_t room : {rooms[i - 1], rooms[i]})
+        add_door(room, {between.x0, at, between.x1, at + m_.door});
     }
     return rooms;
   }

@@ -41,7 +41,8 @@ Measures checked(const BuildingSpec& spec) {
   const Mm least_room = 22 * (m.door + 2 * m.wall + 100) / 10;  // the narrowest piece of a row still holds a door
   if (m.corridor < m.door) refuse("corridor_m", "is less than door_m");
   if (m.room < least_room)
-    refuse("room_m", "is too small for door_m and wall_m: at least " + std::to_string(static_cast<double>(least_room) / 1000));
+    refuse("room_m",
+           "is too small for door_m and wall_m: at least " + std::to_string(static_cast<double>(least_room) / 1000));
   const Mm least = m.door + 2 * m.wall + 300;
   if (m.width < least) refuse("width_m", "is too small for one room with a door");
   if (m.depth < least) refuse("depth_m", "is too small for one room with a door");

@@ -2,14 +2,15 @@
 #include "building/furniture.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace evigrid::scenes {
 namespace {
 
-constexpr Mm kDoorstep = 1200;     // kept free in front of a door, mm
-constexpr Mm kApart = 50;          // between two pieces
+constexpr Mm kDoorstep = 1200;  // kept free in front of a door, mm
+constexpr Mm kApart = 50;       // between two pieces
 constexpr int kTries = 8;
-constexpr int kMostYaw_deg = 10;   // sin < 1/4: what a turned box needs beyond its rectangle is bounded by a quarter
+constexpr int kMostYaw_deg = 10;  // sin < 1/4: what a turned box needs beyond its rectangle is bounded by a quarter
 
 Rect grown(const Rect& r, Mm by) { return {r.x0 - by, r.y0 - by, r.x1 + by, r.y1 + by}; }
 
@@ -29,7 +30,8 @@ void keep_free(const Room& room, const Rect& door, const Measures& m, std::vecto
   const auto joined = [](const Rect& a, const Rect& b) {
     return Rect{std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
   };
-  const Rect corner = in_x_wall ? Rect{door.x0, middle.y0, door.x1, middle.y1} : Rect{middle.x0, door.y0, middle.x1, door.y1};
+  const Rect corner =
+      in_x_wall ? Rect{door.x0, middle.y0, door.x1, middle.y1} : Rect{middle.x0, door.y0, middle.x1, door.y1};
   taken.push_back(joined(door, corner));
   taken.push_back(joined(corner, middle));
 }

@@ -9,9 +9,9 @@ namespace evigrid::scenes {
 enum class Stuff : std::uint8_t { wood, cloth, metal };
 
 struct Piece {
-  Rect rect;              ///< of a box; of a round piece its bounding square
+  Rect rect;  ///< of a box; of a round piece its bounding square
   bool round = false;
-  int yaw_deg = 0;        ///< of a box about its centre
+  int yaw_deg = 0;  ///< of a box about its centre
   Stuff stuff = Stuff::wood;
 };
 

@@ -18,9 +18,7 @@ struct Rect {
   [[nodiscard]] Mm height() const { return y1 - y0; }
 };
 
-inline bool overlap(const Rect& a, const Rect& b) {
-  return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
-}
+inline bool overlap(const Rect& a, const Rect& b) { return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1; }
 
 /// Draws of one thing of the building (a block, a room): they depend on its number only.
 class Draws {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/collect.hpp"
 
+#include <utility>
+
 namespace evigrid::scenes {
 
 void MeshCollector::fail(std::uint64_t where, std::string_view field, const std::string& message) const {

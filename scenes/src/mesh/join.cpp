@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1. End points become numbered nodes. 2. At each node, pieces that go straight on are paired: chains of pieces.
-// 3. Along a chain, a piece grows while all its inner nodes stay near it (the cone of allowed directions: Williams 1978,
-// Sklansky and Gonzalez 1980).
+// 3. Along a chain, a piece grows while all its inner nodes stay near it (the cone of allowed directions: Williams
+// 1978, Sklansky and Gonzalez 1980).
 #include "mesh/join.hpp"
 
 #include <algorithm>
@@ -161,7 +161,8 @@ class Joiner {
       if (!(reach > 0)) continue;  // every direction passes near it
       // Tangents from the origin to the disc around the node.
       const double c = std::sqrt(reach), t = tolerance_;
-      const Point to_left{d.x_m * c - d.y_m * t, d.x_m * t + d.y_m * c}, to_right{d.x_m * c + d.y_m * t, d.y_m * c - d.x_m * t};
+      const Point to_left{d.x_m * c - d.y_m * t, d.x_m * t + d.y_m * c},
+          to_right{d.x_m * c + d.y_m * t, d.y_m * c - d.x_m * t};
       if (!has_cone || cross(to_left, left) > 0) left = to_left;
       if (!has_cone || cross(right, to_right) > 0) right = to_right;
       has_cone = true;

@@ -17,7 +17,7 @@ enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, f
 
 struct PlyProperty {
   std::string name;
-  PlyType type;          ///< of the value, or of each item of the list
+  PlyType type;  ///< of the value, or of each item of the list
   bool is_list = false;
   PlyType count_type{};  ///< of a list
 };

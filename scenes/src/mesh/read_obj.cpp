@@ -4,6 +4,7 @@
 // their lines pass.
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <istream>

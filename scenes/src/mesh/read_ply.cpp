@@ -18,8 +18,11 @@ class Data {
  public:
   Data(std::span<const std::byte> bytes, const PlyHeader& header, MeshCollector& mesh)
       : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
-        at_(header.bytes), encoding_(header.encoding), mesh_(&mesh) {
-    line_ += static_cast<std::uint64_t>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n'));
+        at_(header.bytes),
+        encoding_(header.encoding),
+        mesh_(&mesh) {
+    line_ +=
+        static_cast<std::uint64_t>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n'));
   }
 
   [[nodiscard]] bool ascii() const { return encoding_ == PlyEncoding::ascii; }
@@ -34,20 +37,29 @@ class Data {
   double number(PlyType type, std::string_view field) {
     if (ascii()) return parsed<double>(field);
     switch (type) {
-      case PlyType::float32: return static_cast<double>(std::bit_cast<float>(raw<std::uint32_t>(field)));
-      case PlyType::float64: return std::bit_cast<double>(raw<std::uint64_t>(field));
-      default: return static_cast<double>(integer(type, field));
+      case PlyType::float32:
+        return static_cast<double>(std::bit_cast<float>(raw<std::uint32_t>(field)));
+      case PlyType::float64:
+        return std::bit_cast<double>(raw<std::uint64_t>(field));
+      default:
+        return static_cast<double>(integer(type, field));
     }
   }
   std::int64_t integer(PlyType type, std::string_view field) {
     if (ascii()) return parsed<std::int64_t>(field);
     switch (type) {
-      case PlyType::int8: return static_cast<std::int8_t>(raw<std::uint8_t>(field));
-      case PlyType::uint8: return raw<std::uint8_t>(field);
-      case PlyType::int16: return static_cast<std::int16_t>(raw<std::uint16_t>(field));
-      case PlyType::uint16: return raw<std::uint16_t>(field);
-      case PlyType::int32: return static_cast<std::int32_t>(raw<std::uint32_t>(field));
-      default: return raw<std::uint32_t>(field);
+      case PlyType::int8:
+        return static_cast<std::int8_t>(raw<std::uint8_t>(field));
+      case PlyType::uint8:
+        return raw<std::uint8_t>(field);
+      case PlyType::int16:
+        return static_cast<std::int16_t>(raw<std::uint16_t>(field));
+      case PlyType::uint16:
+        return raw<std::uint16_t>(field);
+      case PlyType::int32:
+        return static_cast<std::int32_t>(raw<std::uint32_t>(field));
+      default:
+        return raw<std::uint32_t>(field);
     }
   }
   /// How many items the list has that comes now: not negative, and the file is long enough.
@@ -68,7 +80,8 @@ class Data {
   }
   /// After the last row: nothing but white space.
   void finish() {
-    if (text_.find_first_not_of(" \t\r\n", at_) != std::string_view::npos) fail("ply", "there is more after the last element");
+    if (text_.find_first_not_of(" \t\r\n", at_) != std::string_view::npos)
+      fail("ply", "there is more after the last element");
   }
 
  private:
@@ -124,7 +137,8 @@ void check_count(const PlyElement& e, const Data& data, std::string_view name) {
   for (const PlyProperty& p : e.properties) least += data.ascii() ? 2 : size_of(p.is_list ? p.count_type : p.type);
   if (least == 0) fail("has rows but no properties");
   if (e.count > (data.left() + 1) / least)
-    fail("the header promises " + std::to_string(e.count) + " rows, " + std::to_string(data.left()) + " bytes are left");
+    fail("the header promises " + std::to_string(e.count) + " rows, " + std::to_string(data.left()) +
+         " bytes are left");
 }
 
 void read_vertices(const PlyElement& e, Data& data, MeshCollector& mesh) {

@@ -47,7 +47,9 @@ void merge_straight(PixelRing& ring) {
   PixelRing merged;
   merged.reserve(ring.size());
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Corner &before = merged.empty() ? ring.back() : merged.back(), &after = ring[(i + 1) % ring.size()];
+    const Corner& before = merged.empty() ? ring.back() : merged.back();
+    // At the end the first corner that stays: of two equal corners across the seam one must be left.
+    const Corner& after = i + 1 < ring.size() ? ring[i + 1] : merged.empty() ? ring[0] : merged.front();
     if (cross(before, ring[i], after) != 0 || dot(ring[i], before, after) > 0) merged.push_back(ring[i]);
   }
   if (merged.size() >= 2) ring.swap(merged);

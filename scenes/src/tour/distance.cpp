@@ -42,7 +42,9 @@ std::vector<std::uint32_t> squared_distance(const TruthGrid& grid) {
       std::int64_t from = 0;
       while (count > 0) {
         const Piece& p = pieces[count - 1];
-        const auto value = [&](std::int64_t centre, std::int64_t g) { return (p.from - centre) * (p.from - centre) + g; };
+        const auto value = [&](std::int64_t centre, std::int64_t g) {
+          return (p.from - centre) * (p.from - centre) + g;
+        };
         if (value(p.centre, p.height) > value(u, height)) {  // nowhere the lowest
           --count;
           continue;

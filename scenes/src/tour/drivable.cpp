@@ -33,7 +33,8 @@ DriveGrid drive_grid(const Outline& outline, const Nearby& nearby, double cleara
   // Half a diagonal step away from both centres.
   grid.leg_clearance_m = std::sqrt(clearance_m * clearance_m - cell_m * cell_m / 2) * (1 - 1e-9);
 
-  // The surface nearest to a centre lies in its nearest surface cell up to half a diagonal: between the bounds, measure.
+  // The surface nearest to a centre lies in its nearest surface cell up to half a diagonal: between the bounds,
+  // measure.
   const double half = std::numbers::sqrt2 / 2 + 1e-4, cells = clearance_m / cell_m;
   const double no = cells > half ? (cells - half) * (cells - half) : -1, yes = (cells + half) * (cells + half);
   for (std::int64_t row = 1; row + 1 < grid.height; ++row) {
@@ -50,7 +51,7 @@ DriveGrid drive_grid(const Outline& outline, const Nearby& nearby, double cleara
 
 std::vector<Step> steps(const DriveGrid& grid) {
   const std::int64_t w = grid.width;
-  return {{1, kStraight},      {-1, kStraight},      {w, kStraight},       {-w, kStraight},
+  return {{1, kStraight},     {-1, kStraight},    {w, kStraight},      {-w, kStraight},
           {w + 1, kDiagonal}, {w - 1, kDiagonal}, {-w + 1, kDiagonal}, {-w - 1, kDiagonal}};
 }
 

@@ -17,8 +17,8 @@ inline constexpr std::uint32_t kUnreached = 0xffffffffu;
 struct DriveGrid {
   std::int64_t x = 0, y = 0, width = 0, height = 0;
   double cell_m = 0;
-  std::vector<std::uint8_t> drivable;          ///< exact: the centre's distance to every surface ≥ clearance_m
-  std::vector<std::uint32_t> clearance_sq;     ///< in cells, between cell centres: within 0.71 cells of the exact one
+  std::vector<std::uint8_t> drivable;       ///< exact: the centre's distance to every surface ≥ clearance_m
+  std::vector<std::uint32_t> clearance_sq;  ///< in cells, between cell centres: within 0.71 cells of the exact one
   /// A straight step between neighbouring drivable centres keeps at least this; legs are held to it. It is less than
   /// clearance_m by at most 0.3 cells, since cell_m ≤ clearance_m.
   double leg_clearance_m = 0;

@@ -2,8 +2,10 @@
 #include "tour/goals.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 namespace evigrid::scenes {
@@ -29,9 +31,8 @@ class GoalGraph {
         edges.push_back({goals.owner[i], goals.owner[j], goals.length[i] + step.length + goals.length[j]});
       }
     }
-    std::sort(edges.begin(), edges.end(), [](const Edge& p, const Edge& q) {
-      return std::tie(p.a, p.b, p.length) < std::tie(q.a, q.b, q.length);
-    });
+    std::sort(edges.begin(), edges.end(),
+              [](const Edge& p, const Edge& q) { return std::tie(p.a, p.b, p.length) < std::tie(q.a, q.b, q.length); });
     const auto same = [](const Edge& p, const Edge& q) { return p.a == q.a && p.b == q.b; };
     edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
     for (const Edge& e : edges) ++begin_[e.a + 1];
@@ -91,7 +92,8 @@ void two_opt(std::vector<std::uint32_t>& order, const std::vector<std::uint32_t>
         const std::int64_t before = way(i - 1, i) + (j + 1 < n ? way(j, j + 1) : 0);
         const std::int64_t after = way(i - 1, j) + (j + 1 < n ? way(i, j + 1) : 0);
         if (after >= before) continue;
-        std::reverse(order.begin() + static_cast<std::ptrdiff_t>(i), order.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+        std::reverse(order.begin() + static_cast<std::ptrdiff_t>(i),
+                     order.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         better = true;
       }
     }

@@ -10,9 +10,9 @@
 namespace evigrid::scenes {
 
 struct Goals {
-  std::vector<CellIndex> cells;        ///< cells[0] is the start
-  std::vector<std::uint32_t> owner;    ///< per grid cell: number of its nearest goal; kUnreached where none is
-  std::vector<std::uint32_t> length;   ///< per grid cell: way to it
+  std::vector<CellIndex> cells;       ///< cells[0] is the start
+  std::vector<std::uint32_t> owner;   ///< per grid cell: number of its nearest goal; kUnreached where none is
+  std::vector<std::uint32_t> length;  ///< per grid cell: way to it
 };
 
 /// `reachable` lists the cells that can be reached from the start, the start among them.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace evigrid::scenes {
 namespace {
@@ -23,9 +24,7 @@ double from_point(Point p, Point a, Point b) {
   return squared_length(p, {a.x_m + t * dx, a.y_m + t * dy});
 }
 
-double side(Point a, Point b, Point p) {
-  return (b.x_m - a.x_m) * (p.y_m - a.y_m) - (b.y_m - a.y_m) * (p.x_m - a.x_m);
-}
+double side(Point a, Point b, Point p) { return (b.x_m - a.x_m) * (p.y_m - a.y_m) - (b.y_m - a.y_m) * (p.x_m - a.x_m); }
 
 }  // namespace
 

@@ -29,8 +29,8 @@ class Nearby {
   const Outline* outline_;
   double bin_m_, x_m_ = 0, y_m_ = 0;  // lower left corner of the bins
   std::int64_t width_ = 0, height_ = 0;
-  std::vector<std::uint32_t> begin_;   // of each bin in items_
-  std::vector<std::uint32_t> items_;   // segment number, or segments.size() + ring number
+  std::vector<std::uint32_t> begin_;  // of each bin in items_
+  std::vector<std::uint32_t> items_;  // segment number, or segments.size() + ring number
 };
 
 }  // namespace evigrid::scenes

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -32,7 +33,7 @@ std::string text(Point p) {
   return buffer;
 }
 
-/// The cell of `allowed` whose centre is nearest to p and, with `sees`, to which a straight leg keeps the clearance.
+/// The cell of `allowed` whose centre is nearest to p.
 std::optional<CellIndex> nearest_cell(const DriveGrid& grid, const std::vector<std::uint8_t>& allowed, Point p) {
   std::optional<CellIndex> best;
   double least = std::numeric_limits<double>::infinity();

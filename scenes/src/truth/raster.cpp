@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace evigrid::scenes {
 namespace {
@@ -13,9 +14,9 @@ namespace {
 using raycast::Point;
 __extension__ typedef __int128 Wide;  // NOLINT: products of two lattice lengths
 
-constexpr std::int64_t kUnit = 65536;           // lattice steps per cell
-constexpr double kFarthest_cells = 0x1p31;      // |index| of any cell
-constexpr std::int64_t kNarrow = 1LL << 30;     // lengths below it have products in 64 bits
+constexpr std::int64_t kUnit = 65536;        // lattice steps per cell
+constexpr double kFarthest_cells = 0x1p31;   // |index| of any cell
+constexpr std::int64_t kNarrow = 1LL << 30;  // lengths below it have products in 64 bits
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
 
 std::int64_t lattice(double coordinate_m, double cell_m) {

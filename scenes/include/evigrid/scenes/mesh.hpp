@@ -28,10 +28,10 @@ struct Mesh {
 [[nodiscard]] Mesh load_mesh_bytes(std::span<const std::byte> bytes, std::string_view extension, std::string_view name);
 
 struct MeshPlacement {
-  double scale = 1;      ///< metres per unit of the file
+  double scale = 1;       ///< metres per unit of the file
   double height_m = 0.3;  ///< of the cut above the mesh's origin, after scaling
   Pose T_map_mesh{};
-  bool y_up = false;     ///< the file's y axis points up (usual for OBJ): turned so that z does
+  bool y_up = false;  ///< the file's y axis points up (usual for OBJ): turned so that z does
   raycast::Material material{};
 };
 

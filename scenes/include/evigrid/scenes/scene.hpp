@@ -69,15 +69,15 @@ struct TrajectorySpec {
   double turn_rate_rad_s = 1;
   double period_s = 0.1;  ///< one scan of all sensors per period
   std::uint64_t seed = 0;
-  std::vector<Motion> legs{};  ///< instead of waypoints; needs a start
-  std::optional<Pose> start{};      ///< absent: at the first waypoint, facing the next one
+  std::vector<Motion> legs{};   ///< instead of waypoints; needs a start
+  std::optional<Pose> start{};  ///< absent: at the first waypoint, facing the next one
 };
 
 /// Wheel odometry of a differential drive: what the robot believes to have driven. Each wheel's way is scaled by its
 /// drift and by noise; standard deviations grow with the root of the way. Counter-based, repeatable from the seed.
 struct OdometrySpec {
-  bool used = false;     ///< a drift or a noise is stated; else the robot knows its true pose
-  double track_m = 0.3;  ///< distance of the wheels
+  bool used = false;                       ///< a drift or a noise is stated; else the robot knows its true pose
+  double track_m = 0.3;                    ///< distance of the wheels
   double drift_left = 0, drift_right = 0;  ///< relative error of each wheel's way, constant over the run
   double noise_m_per_sqrt_m = 0;           ///< standard deviation of each wheel's way over one metre
 };

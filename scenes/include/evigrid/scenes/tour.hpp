@@ -15,8 +15,8 @@ struct TourSpec {
 };
 
 /// Waypoints from the start on, straight between them. The waypoints are centres of search cells at least clearance_m
-/// from every surface, the legs keep that to 0.3 cells. A gap less than cell_m wider than the robot may be left out, and
-/// so is what lies outside the extent of the world (an open world: outside the box of world and start).
+/// from every surface, the legs keep that to 0.3 cells. A gap less than cell_m wider than the robot may be left out,
+/// and so is what lies outside the extent of the world (an open world: outside the box of world and start).
 /// Deterministic. Throws std::invalid_argument when the start itself is too near to a surface; then what() names the
 /// nearest point that is not. Throws std::length_error when the search grid would exceed 2^27 cells.
 [[nodiscard]] std::vector<raycast::Point> make_tour(const raycast::World& world, const TourSpec& spec);

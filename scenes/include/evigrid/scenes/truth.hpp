@@ -8,7 +8,8 @@
 
 namespace evigrid::scenes {
 
-/// surface: a wall passes through the (closed) cell; solid: inside a closed outline, no sensor can see it; free: neither.
+/// surface: a wall passes through the (closed) cell; solid: inside a closed outline, no sensor can see it; free:
+/// neither.
 enum class TruthCell : std::uint8_t { free, surface, solid };
 
 struct TruthGrid {
