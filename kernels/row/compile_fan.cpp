@@ -17,27 +17,29 @@ void build_reach(Fan& f, bool full_circle, double beams_per_rad) {
   const std::size_t n = f.range.size(), stride = full_circle ? 2 * n : n;
   const auto widest = static_cast<std::size_t>(kWidestSquare_rad * beams_per_rad) + 6;
   const int levels = std::bit_width(std::min(stride, widest));
-  f.reach_max.resize(static_cast<std::size_t>(levels) * stride);
-  f.reach_min.resize(static_cast<std::size_t>(levels) * stride);
-  for (std::size_t i = 0; i < stride; i += n) {
-    std::copy(f.range.begin(), f.range.end(), f.reach_max.begin() + static_cast<std::ptrdiff_t>(i));
-    std::copy(f.range.begin(), f.range.end(), f.reach_min.begin() + static_cast<std::ptrdiff_t>(i));
+  f.reach.resize(static_cast<std::size_t>(levels) * stride);
+  float longest = 1;
+  for (const float r : f.range) longest = r > longest ? r : longest;
+  const float unit = longest / 65000.0f, per_unit = 65000.0f / longest;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float r = f.range[i] > 0 ? f.range[i] * per_unit : 0.0f;
+    const auto below = static_cast<std::uint32_t>(static_cast<std::int32_t>(r));  // one more and less cover rounding
+    f.reach[i] = (below + 2) << 16 | (below > 0 ? below - 1 : 0);
+    if (full_circle) f.reach[n + i] = f.reach[i];
   }
   for (int l = 1; l < levels; ++l) {
-    const std::size_t half = std::size_t{1} << (l - 1), full = 2 * half;
-    if (full > stride) break;
-    float* const most = f.reach_max.data() + static_cast<std::size_t>(l) * stride;
-    float* const least = f.reach_min.data() + static_cast<std::size_t>(l) * stride;
-    const float *const most_below = most - stride, *const least_below = least - stride;
-    for (std::size_t i = 0; i + full <= stride; ++i) {
-      most[i] = most_below[i] > most_below[i + half] ? most_below[i] : most_below[i + half];
-      least[i] = least_below[i] < least_below[i + half] ? least_below[i] : least_below[i + half];
+    const std::size_t half = std::size_t{1} << (l - 1);
+    std::uint32_t* const row = f.reach.data() + static_cast<std::size_t>(l) * stride;
+    const std::uint32_t* const under = row - stride;
+    for (std::size_t i = 0; i + 2 * half <= stride; ++i) {
+      const std::uint32_t p = under[i], q = under[i + half];
+      row[i] = std::max(p & 0xffff0000u, q & 0xffff0000u) | std::min(p & 0xffffu, q & 0xffffu);
     }
   }
-  f.reading.reach_max = f.reach_max.data();
-  f.reading.reach_min = f.reach_min.data();
+  f.reading.reach = f.reach.data();
   f.reading.reach_stride = static_cast<int>(stride);
   f.reading.reach_levels = levels;
+  f.reading.reach_unit = unit;
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ struct FanType {
 /// A fan and the arrays it points into; move-only in effect (copies would point at the original's arrays).
 struct Fan {
   FanReading reading;
-  std::vector<float> range, border_x, border_y, reach_max, reach_min;
+  std::vector<float> range, border_x, border_y;
+  std::vector<std::uint32_t> reach;
   double x_min, x_max, y_min, y_max;  // box of what it can touch, cells from the apex
 };
 

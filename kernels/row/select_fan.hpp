@@ -43,13 +43,16 @@ EVIGRID_FN SquareMasks judge_squares(const FanReading& q, const Lanes::V& x, con
     power = select(wide, V(step), power);
   }
   const V first = row + from, second = first + (width - power);
-  const V most = max_of(Lanes::gather(q.reach_max, first), Lanes::gather(q.reach_max, second));
+  V most, least, most_2, least_2;
+  Lanes::gather_halves(q.reach, first, most, least);
+  Lanes::gather_halves(q.reach, second, most_2, least_2);
+  most = max_of(most, most_2) * V(q.reach_unit);
+  least = min_of(least, least_2) * V(q.reach_unit);
   const auto apart = d >= V(1.5f * radius);             // else the apex is in or near the square
   const auto known = both(apart, turned + half <= V(3.14f));  // else it lies across the line behind the fan's middle
   SquareMasks m;
   m.out = either(either(d > V(q.far) + pad, d + pad < V(q.near)),
                  either(both(apart, beside), both(known, d > most + (V(q.half_width) + pad))));
-  const V least = min_of(Lanes::gather(q.reach_min, first), Lanes::gather(q.reach_min, second));
   m.empty = both(both(known, on_fan),
                  both(least > d + (V(q.empty_margin) + pad), both(d > V(q.near) + pad, d + pad < V(q.far))));
   return m;
