@@ -4,6 +4,8 @@
 // same bits for any executor and any number of threads.
 #include "integrate.hpp"
 
+#include <algorithm>
+
 #include "scan/bin.hpp"
 #include "scan/footprint.hpp"
 #include "scan/gate.hpp"
@@ -14,7 +16,6 @@ namespace {
 struct Batch {
   const Pipeline& p;
   const std::vector<Footprint>& footprints;
-  const std::vector<FanReach>& reaches;  // of the fans, by footprint
   std::vector<TileWork>& work;
   std::vector<kernels::Stats>& stats;
 };
@@ -24,6 +25,7 @@ void fuse_tile(const Batch& b, std::size_t index) {
   const TileWork& w = b.work[index];
   const int rule = static_cast<int>(b.p.params.rule);
   MicroList micros;
+  kernels::FanMicros fan_micros;
   kernels::TileArgs args;
   args.cells = w.tile->cells.get();
   args.conflict_plane = b.p.params.keep_conflict;
@@ -35,19 +37,38 @@ void fuse_tile(const Batch& b, std::size_t index) {
     };
     if (f.fan) {
       at(f.fan->reading);
-      select_micros(f.fan->reading, b.reaches[i], args.x0, args.y0, micros);
+      b.p.table.select_fan(f.fan->reading, args.x0, args.y0, fan_micros);
+      args.micros = fan_micros.edge;
+      args.micro_count = fan_micros.edge_count;
+      args.empty_micros = fan_micros.empty;
+      args.empty_count = fan_micros.empty_count;
+      b.p.table.fuse_fan[rule](args, f.fan->reading, b.stats[index]);
     } else {
       at(f.cone);
       select_micros(f.cone, args.x0, args.y0, micros);
-    }
-    args.micros = micros.micro.data();
-    args.micro_count = micros.count;
-    if (f.fan) {
-      b.p.table.fuse_fan[rule](args, f.fan->reading, b.stats[index]);
-    } else {
+      args.micros = micros.micro.data();
+      args.micro_count = micros.count;
       b.p.table.fuse_cone[rule][f.cone_model](args, f.cone, b.stats[index]);
     }
   }
+}
+
+/// Compiling is independent of order. A single scan's few readings are not worth waking other threads.
+void compile_all(std::vector<Footprint>& footprints, Executor& executor) {
+  constexpr std::size_t kChunk = 16, kAlone = 4 * kChunk;
+  const std::size_t n = footprints.size();
+  if (n <= kAlone) {
+    for (Footprint& f : footprints) compile(f);
+    return;
+  }
+  executor.run(
+      static_cast<std::int64_t>((n + kChunk - 1) / kChunk),
+      [](void* context, std::int64_t chunk, int) {
+        auto& all = *static_cast<std::vector<Footprint>*>(context);
+        const std::size_t first = static_cast<std::size_t>(chunk) * kChunk;
+        for (std::size_t i = first; i < std::min(first + kChunk, all.size()); ++i) compile(all[i]);
+      },
+      &footprints);
 }
 
 }  // namespace
@@ -60,13 +81,10 @@ Report integrate(const Pipeline& p, std::span<const Scan> scans) {
     p.last_stamp_ns = scan.stamp_ns;
     gate_scan(scan, p.sensors, p.params.cell_m, footprints, report);
   }
-  std::vector<FanReach> reaches(footprints.size());
-  for (std::size_t i = 0; i < footprints.size(); ++i) {
-    if (footprints[i].fan) reaches[i].build(*footprints[i].fan);
-  }
-  std::vector<TileWork> work = bin(footprints, reaches, p.store);
+  compile_all(footprints, p.executor);
+  std::vector<TileWork> work = bin(footprints, p.table, p.store);
   std::vector<kernels::Stats> stats(work.size());
-  Batch batch{p, footprints, reaches, work, stats};
+  Batch batch{p, footprints, work, stats};
   p.executor.run(
       static_cast<std::int64_t>(work.size()),
       [](void* context, std::int64_t index, int worker) {

@@ -175,6 +175,16 @@ struct Lanes {
     for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::GatherIndex(Tag(), base, hn::ConvertTo(di, index.v[i]));
     return r;
   }
+  /// High and low 16 bits of the words at base[index], as numbers.
+  static HWY_INLINE void gather_halves(const std::uint32_t* base, const V& index, V& high, V& low) {
+    const hn::RebindToSigned<Tag> di;
+    for (int i = 0; i < kUnroll; ++i) {
+      const auto word = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(base), hn::ConvertTo(di, index.v[i]));
+      const hn::RebindToUnsigned<Tag> du;
+      high.v[i] = hn::ConvertTo(Tag(), hn::BitCast(di, hn::ShiftRight<16>(hn::BitCast(du, word))));
+      low.v[i] = hn::ConvertTo(Tag(), hn::And(word, hn::Set(di, 0xffff)));
+    }
+  }
   static HWY_INLINE V floor(const V& x) {
     V r;
     for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Floor(x.v[i]);

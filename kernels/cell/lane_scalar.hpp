@@ -55,6 +55,12 @@ struct Lanes {
   static std::uint64_t bits(M m) { return m ? 1 : 0; }
   static float reduce_max(V v) { return v; }
   static V gather(const float* base, V index) { return base[static_cast<int>(index)]; }
+  /// High and low 16 bits of the word at base[index], as numbers.
+  static void gather_halves(const std::uint32_t* base, V index, V& high, V& low) {
+    const std::uint32_t word = base[static_cast<int>(index)];
+    high = static_cast<float>(word >> 16);
+    low = static_cast<float>(word & 0xffffu);
+  }
   /// Rounds towards minus infinity; |x| < 2^22.
   static V floor(V x) { return std::floor(x); }
 };

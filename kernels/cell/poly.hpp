@@ -39,18 +39,19 @@ EVIGRID_FN V cubic(const float (&c)[4], const V& x) {
   return mul_add(mul_add(mul_add(V(c[3]), x, V(c[2])), x, V(c[1])), x, V(c[0]));
 }
 
-/// Angle of (x, y) in (−π, π], error below 1e-5 rad: finds a candidate beam, exact tests decide (fan_exact.hpp).
+/// Angle of (x, y) in (−π, π], error below 4e-7 rad: finds a candidate beam, exact tests decide (fan_exact.hpp).
 template <class V>
 EVIGRID_FN V coarse_angle(const V& x, const V& y) {
   const V zero(0.0f);
   const V ax = max_of(x, zero - x), ay = max_of(y, zero - y);
   const V z = min_of(ax, ay) / max_of(max_of(ax, ay), V(1e-6f));
   const V t = z * z;
-  V p = mul_add(V(-0.01172120f), t, V(0.05265332f));
-  p = mul_add(p, t, V(-0.11643287f));
-  p = mul_add(p, t, V(0.19354346f));
-  p = mul_add(p, t, V(-0.33262347f));
-  p = mul_add(p, t, V(0.99997726f));
+  V p = mul_add(V(0.00681178970f), t, V(-0.0336042084f));
+  p = mul_add(p, t, V(0.0796236545f));
+  p = mul_add(p, t, V(-0.132333413f));
+  p = mul_add(p, t, V(0.198078156f));
+  p = mul_add(p, t, V(-0.333173692f));
+  p = mul_add(p, t, V(0.999996126f));
   V a = p * z;
   a = select(ax < ay, V(1.57079633f) - a, a);
   a = select(x < zero, V(3.14159265f) - a, a);

@@ -31,10 +31,21 @@ struct FanSpec {
   double empty, occupied, empty_margin_m, half_width_m;
 };
 
+/// What all fans of a sensor share: the borders between its beams as directions in the sensor's frame.
+struct FanType {
+  FanSpec spec{};
+  double lattice = 65536;
+  bool full_circle = false;
+  std::vector<double> border_cos, border_sin;  // beams + 1
+  double mid_cos = 1, mid_sin = 0;
+  explicit FanType(const FanSpec&);
+};
+
 /// A fan and the arrays it points into; move-only in effect (copies would point at the original's arrays).
 struct Fan {
   FanReading reading;
   std::vector<float> range, border_x, border_y;
+  std::vector<std::uint32_t> reach;
   double x_min, x_max, y_min, y_max;  // box of what it can touch, cells from the apex
 };
 
@@ -46,7 +57,7 @@ struct SensorPose {
 double lattice_steps(double reach_cells) noexcept;
 
 ConeReading compile_cone(const ConeType&, const SensorPose&, double range_m) noexcept;
-/// ranges: metres; a negative one is a refused beam, one above max_range_m clears up to it.
-void compile_fan(const FanSpec&, const SensorPose&, const float* ranges_m, Fan& out);
+/// out.range holds metres, one a beam: negative for a refused beam, above max_range_m for one that clears up to it.
+void compile_fan(const FanType&, const SensorPose&, Fan& out);
 
 }  // namespace evigrid::kernels

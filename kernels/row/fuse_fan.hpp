@@ -39,6 +39,23 @@ void fuse_fan_planes(const TileArgs& a, const FanReading& q_in, Stats& stats) {
   for (float& f : nowhere) f = 1e6f;
   const V zero(0.0f), one(1.0f), two(2.0f);
   V max_k(0.0f);
+  for (int i = 0; i < a.empty_count; i += Lanes::kMicros) {  // the same masses, without asking for the beam
+    float* cell[Lanes::kMicros];
+    const float *px[Lanes::kMicros], *py[Lanes::kMicros];
+    for (int m = 0; m < Lanes::kMicros; ++m) {
+      const bool there = i + m < a.empty_count;
+      const int micro = a.empty_micros[there ? i + m : i];
+      cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * kMicroCells * kPlanes : spare;
+      px[m] = there ? dxs[micro % kMicrosPerSide] : nowhere;
+      py[m] = dys[micro / kMicrosPerSide];
+    }
+    const CellIo<kConflict> io(cell);
+    for (int part = 0; part < kParts; ++part) {
+      const V dx = Lanes::load(px, part), dy = Lanes::load(py, part);
+      const V d = root(mul_add(dx, dx, dy * dy));
+      io.template fuse<Rule>(part, measure_beam(q, one, d), d <= V(q.far), stats, max_k);
+    }
+  }
   for (int i = 0; i < a.micro_count; i += Lanes::kMicros) {
     float* cell[Lanes::kMicros];
     const float *px[Lanes::kMicros], *py[Lanes::kMicros];
@@ -104,7 +121,7 @@ void fuse_fan_planes(const TileArgs& a, const FanReading& q_in, Stats& stats) {
 
 template <class Rule>
 void fuse_fan(const TileArgs& a, const FanReading& q, Stats& stats) {
-  if (a.micro_count == 0) return;
+  if (a.micro_count + a.empty_count == 0) return;
   if (a.conflict_plane) {
     fuse_fan_planes<Rule, true>(a, q, stats);
   } else {

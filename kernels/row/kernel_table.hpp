@@ -26,8 +26,16 @@ struct TileArgs {
   float* cells = nullptr;
   bool conflict_plane = false;
   float x0 = 0, y0 = 0;                  // offset of the tile's first cell centre from the apex, exact
-  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched, ascending
+  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched; of a cone: ascending
   int micro_count = 0;
+  const std::uint8_t* empty_micros = nullptr;  // of a fan: micro-tiles wholly in its empty part
+  int empty_count = 0;
+};
+
+/// The micro-tiles of a tile for one fan: those with nothing but empty cells, and those to be looked at cell by cell.
+struct FanMicros {
+  std::uint8_t empty[kMicrosPerTile], edge[kMicrosPerTile];
+  int empty_count = 0, edge_count = 0;
 };
 
 /// Masses of one reading on the listed micro-tiles, kept apart from the map: the unfused path.
@@ -45,6 +53,7 @@ struct KernelTable {
   std::string_view name;
   int lanes;  // floats in one vector
   void (*fuse_cone[kRules][kConeModels])(const TileArgs&, const ConeReading&, Stats&);
+  void (*select_fan)(const FanReading&, float x0, float y0, FanMicros&);  // (x0, y0) as in TileArgs
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
   void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
   void (*combine_measured[kRules][kConeModels])(const TileArgs&, const Measured&, Stats&);

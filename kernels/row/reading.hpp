@@ -42,7 +42,13 @@ struct FanReading {
   const float* border_x = nullptr;  // beams + 1 directions between the beams
   const float* border_y = nullptr;
   float mid_cos = 1, mid_sin = 0;  // middle of the fan, only to find candidates
-  float beams_per_rad = 0, half_beams = 0, angle_slack = 0;
+  float beams_per_rad = 0, half_beams = 0, angle_slack = 0;  // slack in beams
+  float half_angle = 0;                                      // half of the fan's opening, radians
+  // Extreme ranges over 2^l beams from i at reach[l · stride + i]: the largest (rounded up) in the high and the smallest
+  // (rounded down) in the low 16 bits, in units of reach_unit cells. A whole turn is stored twice over.
+  const std::uint32_t* reach = nullptr;
+  int reach_stride = 0, reach_levels = 0;
+  float reach_unit = 1;
   float near = 0, far = 0;  // closed limits of d
   float empty_margin = 0, half_width = 0;
   float empty = 0, occupied = 0, fall = 0;  // masses at d = 0 after discount; share lost per cell

@@ -12,6 +12,7 @@
 #include "kernels/row/dense.hpp"
 #include "kernels/row/fuse_cone.hpp"
 #include "kernels/row/fuse_fan.hpp"
+#include "kernels/row/select_fan.hpp"
 
 EVIGRID_CELL_BEGIN
 
@@ -30,6 +31,7 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   KernelTable t{};
   t.name = name;
   t.lanes = lanes;
+  t.select_fan = select_fan;
   t.measure_cone[0] = measure_cone<ModelHughes1992>;
   t.measure_cone[1] = measure_cone<ModelLi2014>;
   fill_rule<Dempster>(t, 0);

@@ -6,10 +6,11 @@
 
 namespace evigrid {
 
-std::vector<TileWork> bin(const std::vector<Footprint>& footprints, const std::vector<FanReach>& reaches,
+std::vector<TileWork> bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& table,
                           TileStore& store) {
   std::map<TileIndex, std::vector<std::uint32_t>> lists;
   MicroList micros;
+  kernels::FanMicros fan_micros;
   for (std::uint32_t i = 0; i < footprints.size(); ++i) {
     const Footprint& f = footprints[i];
     const CellBox box = footprint_box(f);
@@ -22,7 +23,9 @@ std::vector<TileWork> bin(const std::vector<Footprint>& footprints, const std::v
           // A new tile costs memory: look closer before making one.
           if (f.fan) {
             const auto& q = f.fan->reading;
-            select_micros(q, reaches[i], offset(x, q.i0, q.fx), offset(y, q.j0, q.fy), micros);
+            table.select_fan(q, static_cast<float>(offset(x, q.i0, q.fx)), static_cast<float>(offset(y, q.j0, q.fy)),
+                             fan_micros);
+            micros.count = fan_micros.empty_count + fan_micros.edge_count;
           } else {
             select_micros(f.cone, offset(x, f.cone.i0, f.cone.fx), offset(y, f.cone.j0, f.cone.fy), micros);
           }

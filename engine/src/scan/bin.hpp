@@ -15,8 +15,8 @@ struct TileWork {
   std::vector<std::uint32_t> footprints;  // ascending: the order of fusion
 };
 
-/// `reaches`: of the fans, by footprint. Creates missing tiles (std::length_error at the memory cap, before any cell is
+/// Creates missing tiles (std::length_error at the memory cap, before any cell is
 /// changed). Sorted by tile, so that the schedule does not depend on a hash.
-std::vector<TileWork> bin(const std::vector<Footprint>&, const std::vector<FanReach>&, TileStore&);
+std::vector<TileWork> bin(const std::vector<Footprint>&, const kernels::KernelTable&, TileStore&);
 
 }  // namespace evigrid

@@ -16,15 +16,21 @@ kernels::FanSpec fan_spec(const Sensor&, double cell_m);
 /// A declared sensor with what depends on it alone.
 struct CompiledSensor {
   Sensor sensor;
-  std::variant<kernels::ConeType, kernels::FanSpec> type;
+  std::variant<kernels::ConeType, kernels::FanType> type;
   CompiledSensor(const Sensor&, double cell_m);
 };
 
-/// One accepted reading, in the order of fusion.
+/// One accepted reading, in the order of fusion: gated, then compiled.
 struct Footprint {
+  const CompiledSensor* sensor = nullptr;
+  kernels::SensorPose pose{};
+  double range_m = 0;   // of a cone
   int cone_model = -1;  // index into the kernel table; −1 is a fan
   kernels::ConeReading cone;
-  std::unique_ptr<kernels::Fan> fan;
+  std::unique_ptr<kernels::Fan> fan;  // its ranges in metres until it is compiled
 };
+
+/// The second half of the gate, which takes the time: each footprint by itself, in any order.
+void compile(Footprint&);
 
 }  // namespace evigrid

@@ -23,18 +23,4 @@ struct MicroList {
 
 /// (x0, y0): offset of the tile's first cell centre from the apex, in cells.
 void select_micros(const kernels::ConeReading&, double x0, double y0, MicroList& out);
-/// Scratch that a fan keeps between tiles of one task: the largest range over runs of beams.
-class FanReach {
- public:
-  void build(const kernels::Fan&);
-  /// Farthest reach, in cells, of the beams that cover directions within `half_rad` of `angle_rad`; −1 when none does.
-  [[nodiscard]] float farthest(float angle_rad, float half_rad) const;
-
- private:
-  const kernels::FanReading* fan_ = nullptr;
-  int levels_ = 0;
-  std::vector<float> table_;  // level l, beam i: largest of 2^l beams from i
-};
-void select_micros(const kernels::FanReading&, const FanReach&, double x0, double y0, MicroList& out);
-
 }  // namespace evigrid

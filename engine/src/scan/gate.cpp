@@ -39,7 +39,7 @@ kernels::FanSpec fan_spec(const Sensor& s, double cell_m) {
 
 CompiledSensor::CompiledSensor(const Sensor& s, double cell_m)
     : sensor(s),
-      type(s.model == Model::beam ? decltype(type)(fan_spec(s, cell_m))
+      type(s.model == Model::beam ? decltype(type)(kernels::FanType(fan_spec(s, cell_m)))
                                   : decltype(type)(kernels::ConeType(cone_spec(s, cell_m)))) {}
 
 namespace {
@@ -66,7 +66,9 @@ void count(Report& r, Refusal why, std::uint64_t n = 1) { r.refused[static_cast<
 void gate_fan(const Reading& reading, const CompiledSensor& c, const kernels::SensorPose& pose,
               std::vector<Footprint>& out, Report& report) {
   const Sensor& s = c.sensor;
-  std::vector<float> ranges(reading.ranges_m.begin(), reading.ranges_m.end());
+  auto fan = std::make_unique<kernels::Fan>();
+  std::vector<float>& ranges = fan->range;
+  ranges.assign(reading.ranges_m.begin(), reading.ranges_m.end());
   bool any = false;
   for (float& r : ranges) {
     const auto why = refuse(s, r);
@@ -84,8 +86,9 @@ void gate_fan(const Reading& reading, const CompiledSensor& c, const kernels::Se
   }
   if (!any) return;
   Footprint f;
-  f.fan = std::make_unique<kernels::Fan>();
-  kernels::compile_fan(std::get<kernels::FanSpec>(c.type), pose, ranges.data(), *f.fan);
+  f.sensor = &c;
+  f.pose = pose;
+  f.fan = std::move(fan);
   out.push_back(std::move(f));
 }
 
@@ -121,10 +124,19 @@ void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, dou
     }
     ++report.readings_used;
     Footprint f;
-    const auto& type = std::get<kernels::ConeType>(c.type);
-    f.cone_model = type.spec.model;
-    f.cone = kernels::compile_cone(type, pose, range);
+    f.sensor = &c;
+    f.pose = pose;
+    f.range_m = range;
+    f.cone_model = std::get<kernels::ConeType>(c.type).spec.model;
     out.push_back(std::move(f));
+  }
+}
+
+void compile(Footprint& f) {
+  if (f.fan) {
+    kernels::compile_fan(std::get<kernels::FanType>(f.sensor->type), f.pose, *f.fan);
+  } else {
+    f.cone = kernels::compile_cone(std::get<kernels::ConeType>(f.sensor->type), f.pose, f.range_m);
   }
 }
 
