@@ -14,7 +14,7 @@ THIRD = {
     "embree": re.compile(r"^embree[34]/"), "highway": re.compile(r"^hwy/"), "toml": re.compile(r"^toml\+\+/"),
     "cli": re.compile(r"^CLI/"), "json": re.compile(r"^nlohmann/"), "png": re.compile(r"^png\.h$"),
     "zlib": re.compile(r"^zlib\.h$"), "fmt": re.compile(r"^fmt/"), "zstd": re.compile(r"^zstd\.h$"),
-    "leptonica": re.compile(r"^(leptonica/)?allheaders\.h$"), "yaml": re.compile(r"^yaml-cpp/"),
+    "yaml": re.compile(r"^yaml-cpp/"),
     "tinyobj": re.compile(r"^tiny_obj_loader\.h$"),
 }
 # Room: folders it may include from (by include path prefix), third parties it may include.
@@ -24,7 +24,7 @@ ROOMS = {
     "engine/include": (("evigrid/",), set()),
     "raycast": (("evigrid/raycast/", "@raycast"), {"embree", "tbb", "eigen"}),
     "raycast/include": (("evigrid/raycast/",), set()),
-    "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt", "leptonica", "png", "yaml", "tinyobj", "tbb"}),
+    "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt", "png", "yaml", "tinyobj", "tbb"}),
     "scenes/include": (("evigrid/scenes/", "evigrid/raycast/"), set()),
     "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree"}),
 }

@@ -4,7 +4,7 @@ EVIGRID_PACKAGES=(
   g++ cmake ninja-build
   libtbb-dev libeigen3-dev libembree-dev libhwy-dev
   libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libfmt-dev libpng-dev zlib1g-dev
-  libleptonica-dev libyaml-cpp-dev libtinyobjloader-dev libzstd-dev
+  libyaml-cpp-dev libtinyobjloader-dev libzstd-dev
 )
 EVIGRID_TEST_PACKAGES=(libgtest-dev libbenchmark-dev libgmp-dev python3)
 

@@ -8,6 +8,7 @@
 
 #include "program.hpp"
 #include "text.hpp"
+#include "widest_place.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -170,6 +171,29 @@ TEST(RunWorld, APlanWithoutAScene) {
   EXPECT_TRUE(contains(failure({"default", "--world", file}), "--world: cannot be given beside a scene"));
   EXPECT_TRUE(contains(failure({"--start", "1,1"}), "--start: is for --world"));
   EXPECT_TRUE(contains(failure({"--seed", "-1"}), "--seed: -1 is below 0"));
+}
+
+TEST(WidestPlace, InsideRatherThanOutsideAndNeverInAWall) {
+  using scenes::PlanCell;
+  // 20 × 10 pixels of free space with a closed room of 5 × 3 free pixels, whose walls are 1 thick, far smaller than the
+  // outside.
+  scenes::FloorPlan plan{.width = 20, .height = 10, .resolution_m = 0.5, .resolution_y_m = 0.5};
+  plan.origin = {10, 20, M_PI / 2};
+  plan.cells.assign(200, PlanCell::free);
+  const auto set = [&](int x, int y, PlanCell c) { plan.cells[static_cast<std::size_t>(y * 20 + x)] = c; };
+  for (int x = 12; x <= 18; ++x)
+    for (int y = 2; y <= 6; ++y)
+      set(x, y, x == 12 || x == 18 || y == 2 || y == 6 ? PlanCell::occupied : PlanCell::free);
+  const auto inside =
+      widest_place(plan, 0.5);  // the row in the middle: the first pixel of those with distance 2 is (14, 4)
+  ASSERT_TRUE(inside);
+  EXPECT_NEAR(inside->x_m, 10 - 4.5 * 0.5, 1e-9);
+  EXPECT_NEAR(inside->y_m, 20 + 14.5 * 0.5, 1e-9);
+  const auto outside = widest_place(plan, 1.5);  // the room is too narrow for that
+  ASSERT_TRUE(outside);
+  EXPECT_LT(outside->y_m, 20 + 12 * 0.5);
+  plan.cells.assign(200, PlanCell::unknown);
+  EXPECT_FALSE(widest_place(plan, 0.1));
 }
 
 TEST(RunWorld, ABuildingFromASeed) {
