@@ -4,6 +4,7 @@
 #include "options.hpp"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include "error.hpp"
 #include "evigrid/combine.hpp"
@@ -52,6 +53,18 @@ std::shared_ptr<Executor> parse_executor(const std::string& text, int threads) {
   if (threads < 0 || threads > kMostThreads) {
     throw InputError(
         fmt::format("--threads: {} is not within [0, {}] (0: as many as the machine has)", threads, kMostThreads));
+  }
+  // The program, unlike the library, may say how many threads its process has: --threads 7 then means 7 on any machine.
+  struct Permitted {
+    tbb::global_control permit;
+    std::shared_ptr<Executor> executor;
+  };
+  if (text == "tbb" && threads > 0) {
+    const auto most = static_cast<std::size_t>(threads);
+    auto held = std::shared_ptr<Permitted>(
+        new Permitted{tbb::global_control(tbb::global_control::max_allowed_parallelism, most), nullptr});
+    held->executor = make_executor(text, threads);
+    return {held, held->executor.get()};
   }
   if (std::shared_ptr<Executor> executor = make_executor(text, threads)) return executor;
   throw InputError(fmt::format("--executor: '{}' is unknown; known: serial, tbb, openmp", text));

@@ -57,7 +57,9 @@ TEST(Run, EveryPapersWorldByItsName) {
     const Json r = report({"run", name, "-o", dir.at(name), "--json", "-"});
     EXPECT_GT(r["readings_used"], 1000) << name;
     EXPECT_TRUE(contains(r["input"].dump(), name));
-    if (name == "asharif2001") EXPECT_EQ(r["scans"], 4500);
+    if (name == "asharif2001") {
+      EXPECT_EQ(r["scans"], 4500);
+    }
   }
   const Ran ran = evigrid({"run", "hughes1993", "-o", dir.at("no")});
   EXPECT_EQ(ran.code, 2);
@@ -117,7 +119,9 @@ TEST(Cast, NewColumnsComeLast) {
         << line;
     ++rows;
     laser_rows += sensor == 4;
-    if (sensor < 4) EXPECT_EQ(beam, 0);
+    if (sensor < 4) {
+      EXPECT_EQ(beam, 0);
+    }
     last_x = x;
     last_odom_x = ox;
   }
@@ -177,7 +181,10 @@ TEST(WidestPlace, InsideRatherThanOutsideAndNeverInAWall) {
   using scenes::PlanCell;
   // 20 × 10 pixels of free space with a closed room of 5 × 3 free pixels, whose walls are 1 thick, far smaller than the
   // outside.
-  scenes::FloorPlan plan{.width = 20, .height = 10, .resolution_m = 0.5, .resolution_y_m = 0.5};
+  scenes::FloorPlan plan;
+  plan.width = 20;
+  plan.height = 10;
+  plan.resolution_m = plan.resolution_y_m = 0.5;
   plan.origin = {10, 20, M_PI / 2};
   plan.cells.assign(200, PlanCell::free);
   const auto set = [&](int x, int y, PlanCell c) { plan.cells[static_cast<std::size_t>(y * 20 + x)] = c; };

@@ -196,15 +196,20 @@ TEST(Movers, AreSeenWhereTheyStand) {
                                    "start = [0, 0, 0]\n[[trajectory.velocity]]\nduration_s = 4\nspeed_m_s = 0\n"),
                         "s.toml");
   s.sonars.clear();
-  s.lasers.push_back({.beams = 1, .max_range_m = 20});
-  s.lasers[0].step_rad = 0.1;
+  LaserSpec laser;
+  laser.beams = 1;
+  laser.step_rad = 0.1;
+  laser.max_range_m = 20;
+  s.lasers = {laser};
   const raycast::Scene caster = make_caster(s);
   const auto steps = simulate(s, caster);
   ASSERT_EQ(steps.size(), 41u);
   // The box spans y ± 0.2 around 2 − t: it covers the beam y = 0 for t in [1.8, 2.2].
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const bool hidden = i > 18 && i < 22;
-    if (i != 18 && i != 22) EXPECT_NEAR(steps[i].beams_m[0], hidden ? 1.8 : 5.0, 1e-6) << i;
+    if (i != 18 && i != 22) {
+      EXPECT_NEAR(steps[i].beams_m[0], hidden ? 1.8 : 5.0, 1e-6) << i;
+    }
   }
 }
 

@@ -98,7 +98,9 @@ TEST(Lasers, EveryBeamHasNoiseOfItsOwn) {
       ++n;
     }
     const double by_hand = raycast::noisy(a.beams_m[90], {0.02, 0.01}, {exact.trajectory.seed, 0, 24, i}, 90);
-    if (std::isfinite(b.beams_m[90])) EXPECT_NEAR(b.beams_m[90], by_hand, 1e-6);
+    if (std::isfinite(b.beams_m[90])) {
+      EXPECT_NEAR(b.beams_m[90], by_hand, 1e-6);
+    }
   }
   const double root = std::sqrt(static_cast<double>(n));
   ASSERT_GT(n, 10000u);
