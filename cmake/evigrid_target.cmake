@@ -1,5 +1,5 @@
 # What every target of ours shares: C++20, baseline x86-64 (no -march), no contraction of a*b+c into fma (equal bits),
-# warnings private to us, sanitizers from one option.
+# warnings private to us, sanitizers from one option; with EVIGRID_FUZZ the counters libFuzzer steers by, in every library.
 find_package(Threads REQUIRED)
 
 function(evigrid_target target)
@@ -12,5 +12,8 @@ function(evigrid_target target)
     target_compile_options(${target} PRIVATE -fsanitize=${EVIGRID_SANITIZE} -fno-omit-frame-pointer
       -fno-sanitize-recover=all)
     target_link_options(${target} PUBLIC -fsanitize=${EVIGRID_SANITIZE})
+  endif()
+  if(EVIGRID_FUZZ)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
   endif()
 endfunction()

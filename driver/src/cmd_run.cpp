@@ -6,6 +6,10 @@
 
 #include "commands.hpp"
 #include "mapping.hpp"
+#include "out/layers.hpp"
+#include "picture/truth_picture.hpp"
+#include "score/score.hpp"
+#include "score/truth.hpp"
 #include "simulated.hpp"
 #include "world_input.hpp"
 
@@ -54,6 +58,10 @@ void run_scene(Args args, bool rule_given) {
                                {"seed", input.scene.trajectory.seed},
                                {"cast_s", simulated.cast_s}};
   if (input.scene.odometry.used) extra["odometry"] = odometry_report(simulated);
+  const scenes::TruthGrid truth = scene_truth(input.scene, plan.params.cell_m);
+  const Layers layers = render_layers(fused.map, o.max_image_mb);
+  extra["truth"] = to_json(score(layers, truth));
+  out.write("truth.png", png(draw_truth(layers, truth, input.scene.name, o.max_image_mb)), {});
   write_results(out, simulated.log, fused, o, start, extra);
 }
 
@@ -71,9 +79,9 @@ void add_run(CLI::App& app) {
   command->get_option("--reliability")
       ->description("Shafer discount in (0, 1] of every sensor (default: each one's own)");
   command->footer(
-      "Writes the same files as `evigrid map`; report.json also has cast_s, the time of the ray casting, and, when "
-      "the\n"
-      "scene has an odometry, how far the believed pose strayed from the true one.\n\n"
+      "Writes the same files as `evigrid map`, and truth.png: the map over the true world. report.json also has cast_s,\n"
+      "the time of the ray casting; truth, how well the map agrees with the world (docs/maths.md); and, when the scene\n"
+      "has an odometry, how far the believed pose strayed from the true one.\n\n"
       "Examples:\n"
       "  evigrid run -o out\n"
       "  evigrid run li2014 -o out\n"

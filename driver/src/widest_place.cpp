@@ -13,6 +13,10 @@ namespace {
 
 using Cells = std::vector<std::int32_t>;
 
+/// Free space joined to the image's border is often the world outside of the building: a region that is not is taken
+/// unless the other one is this many times as large.
+constexpr std::size_t kInnerIsWorth = 8;
+
 class Grid {
  public:
   explicit Grid(const scenes::FloorPlan& plan) : plan_(plan) {}
@@ -69,21 +73,58 @@ class Grid {
   const scenes::FloorPlan& plan_;
 };
 
+/// A connected set of pixels where the robot has room.
+struct Region {
+  std::size_t pixels = 0, widest = 0;  // how many, and the one with the largest distance
+};
+
+/// The largest region off the border and the largest one joined to it, of pixels at least `least` from everything.
+std::pair<Region, Region> largest_regions(const scenes::FloorPlan& plan, const Cells& distance,
+                                          const std::vector<bool>& outside, double least) {
+  std::vector<bool> seen(distance.size(), false);
+  std::vector<std::size_t> open;
+  std::pair<Region, Region> best;
+  const auto width = static_cast<std::size_t>(plan.width);
+  for (std::size_t seed = 0; seed < distance.size(); ++seed) {
+    Region region{0, seed};
+    const auto reach = [&](std::size_t i) {
+      if (seen[i] || distance[i] < least) return;
+      seen[i] = true;
+      ++region.pixels;
+      if (distance[i] > distance[region.widest]) region.widest = i;
+      open.push_back(i);
+    };
+    reach(seed);
+    while (!open.empty()) {
+      const std::size_t i = open.back();
+      open.pop_back();
+      if (i % width > 0) reach(i - 1);
+      if (i % width + 1 < width) reach(i + 1);
+      if (i >= width) reach(i - width);
+      if (i + width < distance.size()) reach(i + width);
+    }
+    Region& rival = outside[seed] ? best.second : best.first;
+    if (region.pixels > rival.pixels) rival = region;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<raycast::Point> widest_place(const scenes::FloorPlan& plan, double clearance_m) {
   const Grid grid(plan);
   const Cells distance = grid.distances();
-  const std::vector<bool> outside = grid.outside();
-  std::size_t inner = 0, any = 0;
-  for (std::size_t i = 0; i < distance.size(); ++i) {
-    if (distance[i] > distance[any]) any = i;
-    if (!outside[i] && (outside[inner] || distance[i] > distance[inner])) inner = i;
-  }
+  if (distance.empty()) return std::nullopt;
   const double pixel_m = std::min(plan.resolution_m, plan.resolution_y_m);
-  const bool roomy = !outside[inner] && distance[inner] * pixel_m >= clearance_m;
-  const auto best = static_cast<std::int64_t>(roomy ? inner : any);
-  if (distance.empty() || distance[static_cast<std::size_t>(best)] == 0) return std::nullopt;
+  // From a pixel's middle to the next wall it is half a pixel less; another one for simplified outlines.
+  const auto [inner, outer] =
+      largest_regions(plan, distance, grid.outside(), std::max(clearance_m / pixel_m + 1.5, 1.0));
+  std::size_t at = inner.pixels * kInnerIsWorth >= outer.pixels ? inner.widest : outer.widest;
+  if (inner.pixels + outer.pixels == 0) {  // nowhere enough room: the best there is
+    at = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());
+    if (distance[at] == 0) return std::nullopt;
+  }
+  const auto best = static_cast<std::int64_t>(at);
   const scenes::Pose middle{(static_cast<double>(best % plan.width) + 0.5) * plan.resolution_m,
                             (static_cast<double>(best / plan.width) + 0.5) * plan.resolution_y_m, 0};
   const scenes::Pose place = scenes::compose(plan.origin, middle);

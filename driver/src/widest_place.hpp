@@ -8,9 +8,9 @@
 
 namespace evigrid::driver {
 
-/// The middle of the free pixel that is farthest from everything else, in the map frame. Pixels that are joined to the
-/// image's border through free ones are the last resort: often they are the world outside of the building.
-/// `clearance_m`: what it should have at least. Nothing when no pixel is free.
+/// The middle of the widest free pixel of the largest region in which a robot that needs `clearance_m` has room, in the
+/// map frame. Regions that are joined to the image's border are taken only when they are far larger: often they are the
+/// world outside of the building. Without any room: the widest free pixel. Nothing when no pixel is free.
 std::optional<raycast::Point> widest_place(const scenes::FloorPlan& plan, double clearance_m);
 
 }  // namespace evigrid::driver

@@ -177,30 +177,45 @@ TEST(RunWorld, APlanWithoutAScene) {
   EXPECT_TRUE(contains(failure({"--seed", "-1"}), "--seed: -1 is below 0"));
 }
 
-TEST(WidestPlace, InsideRatherThanOutsideAndNeverInAWall) {
+/// Free space with one closed room: walls one pixel thick, from (x0, y0) to (x1, y1).
+scenes::FloorPlan plan_with_room(int width, int height, int x0, int y0, int x1, int y1) {
   using scenes::PlanCell;
-  // 20 × 10 pixels of free space with a closed room of 5 × 3 free pixels, whose walls are 1 thick, far smaller than the
-  // outside.
   scenes::FloorPlan plan;
-  plan.width = 20;
-  plan.height = 10;
+  plan.width = width;
+  plan.height = height;
   plan.resolution_m = plan.resolution_y_m = 0.5;
   plan.origin = {10, 20, M_PI / 2};
-  plan.cells.assign(200, PlanCell::free);
-  const auto set = [&](int x, int y, PlanCell c) { plan.cells[static_cast<std::size_t>(y * 20 + x)] = c; };
-  for (int x = 12; x <= 18; ++x)
-    for (int y = 2; y <= 6; ++y)
-      set(x, y, x == 12 || x == 18 || y == 2 || y == 6 ? PlanCell::occupied : PlanCell::free);
-  const auto inside =
-      widest_place(plan, 0.5);  // the row in the middle: the first pixel of those with distance 2 is (14, 4)
+  plan.cells.assign(static_cast<std::size_t>(width * height), PlanCell::free);
+  for (int x = x0; x <= x1; ++x) {
+    for (int y = y0; y <= y1; ++y) {
+      if (x == x0 || x == x1 || y == y0 || y == y1)
+        plan.cells[static_cast<std::size_t>(y * width + x)] = PlanCell::occupied;
+    }
+  }
+  return plan;
+}
+
+TEST(WidestPlace, InsideRatherThanOutsideAndNeverInAWall) {
+  // 11 × 6 free pixels inside; the two rows in their middle are farthest from the walls.
+  scenes::FloorPlan plan = plan_with_room(30, 10, 16, 1, 28, 8);
+  const auto inside = widest_place(plan, 0.2);
   ASSERT_TRUE(inside);
-  EXPECT_NEAR(inside->x_m, 10 - 4.5 * 0.5, 1e-9);
-  EXPECT_NEAR(inside->y_m, 20 + 14.5 * 0.5, 1e-9);
-  const auto outside = widest_place(plan, 1.5);  // the room is too narrow for that
+  const double column = (inside->y_m - 20) / 0.5 - 0.5, row = (10 - inside->x_m) / 0.5 - 0.5;  // the plan is turned
+  EXPECT_GE(column, 19 - 1e-9);
+  EXPECT_LE(column, 25 + 1e-9);
+  EXPECT_GE(row, 4 - 1e-9);
+  EXPECT_LE(row, 5 + 1e-9);
+  const auto outside = widest_place(plan, 1.0);  // the room is too narrow for that
   ASSERT_TRUE(outside);
-  EXPECT_LT(outside->y_m, 20 + 12 * 0.5);
-  plan.cells.assign(200, PlanCell::unknown);
+  EXPECT_LT((outside->y_m - 20) / 0.5, 16);
+  plan.cells.assign(plan.cells.size(), scenes::PlanCell::unknown);
   EXPECT_FALSE(widest_place(plan, 0.1));
+}
+
+TEST(WidestPlace, ASpeckInsideIsNoBuilding) {
+  const auto outside = widest_place(plan_with_room(60, 40, 50, 10, 56, 16), 0.2);
+  ASSERT_TRUE(outside);
+  EXPECT_LT((outside->y_m - 20) / 0.5, 50);
 }
 
 TEST(RunWorld, ABuildingFromASeed) {

@@ -56,10 +56,10 @@ std::vector<Step> steps(const DriveGrid& grid) {
 }
 
 std::vector<std::uint8_t> main_region(const DriveGrid& grid) {
+  constexpr std::size_t kInnerIsWorth = 8;
   const std::vector<Step> around = steps(grid);
   std::vector<std::uint8_t> seen(grid.drivable.size(), 0), best(grid.drivable.size(), 0);
-  std::vector<CellIndex> region, best_region;
-  bool best_open = true;
+  std::vector<CellIndex> region, inner, outer;
   for (std::size_t seed = 0; seed < seen.size(); ++seed) {
     if (!grid.drivable[seed] || seen[seed]) continue;
     region.assign(1, static_cast<CellIndex>(seed));
@@ -75,12 +75,10 @@ std::vector<std::uint8_t> main_region(const DriveGrid& grid) {
         region.push_back(next);
       }
     }
-    if (best_region.empty() || (best_open && !open) || (best_open == open && region.size() > best_region.size())) {
-      best_open = open;
-      best_region.swap(region);
-    }
+    std::vector<CellIndex>& rival = open ? outer : inner;
+    if (region.size() > rival.size()) rival.swap(region);
   }
-  for (const CellIndex i : best_region) best[i] = 1;
+  for (const CellIndex i : inner.size() * kInnerIsWorth >= outer.size() ? inner : outer) best[i] = 1;
   return best;
 }
 

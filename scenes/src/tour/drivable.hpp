@@ -39,8 +39,8 @@ struct Step {
 };
 [[nodiscard]] std::vector<Step> steps(const DriveGrid& grid);
 
-/// The largest connected region of drivable cells that does not touch the rim of the grid, else the largest one.
-/// Marks its cells with 1; all 0 when nothing is drivable.
+/// The largest connected region of drivable cells that does not touch the rim of the grid; the largest one that does
+/// when it has more than eight times as many. Marks its cells with 1; all 0 when nothing is drivable.
 [[nodiscard]] std::vector<std::uint8_t> main_region(const DriveGrid& grid);
 
 }  // namespace evigrid::scenes
