@@ -21,7 +21,7 @@
 namespace evigrid::driver {
 namespace {
 
-constexpr int kPanel_px = 420, kMostColumns = 4;
+constexpr int kPanel_px = 420, kFewPanel_px = 640, kMostColumns = 4;  // a sheet of few panels shows them larger
 
 /// One set of readings and, where the world is known, what a perfect map of it would say.
 struct Subject {
@@ -158,7 +158,8 @@ void compare(const CompareOptions& given) {
   std::vector<CompareRow> rows;
   std::vector<Panel> panels;
   // The sheet shows the world; readings that leak far outside of it must not make it small.
-  const SheetScale scale = sheet_scale(truth ? CellRect{truth->x, truth->y, truth->width, truth->height} : all, kPanel_px);
+  const SheetScale scale = sheet_scale(truth ? CellRect{truth->x, truth->y, truth->width, truth->height} : all,
+                  results.size() < kMostColumns ? kFewPanel_px : kPanel_px);
   if (truth) panels.push_back({"truth", {"dark: surfaces  pale: free  grey: out of sight"}, thumbnail(*truth, scale)});
   for (const Result& r : results) {
     rows.push_back(r.row);
