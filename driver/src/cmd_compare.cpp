@@ -40,6 +40,7 @@ void add_compare(CLI::App& app) {
   add_mapping_options(*command, o.mapping);
   command->remove_option(command->get_option("--rule"));
   command->remove_option(command->get_option("--model"));
+  for (const char* single : {"--layers", "--costmap", "--pgm-mode"}) command->remove_option(command->get_option(single));
   command->add_option("--rules", args->rules, "comma-separated, or all: " + rule_names())->capture_default_str();
   command->add_option("--models", args->models, "sonar models, comma-separated, or all: " + model_names())
       ->capture_default_str();

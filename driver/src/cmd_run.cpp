@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "commands.hpp"
+#include "error.hpp"
 #include "mapping.hpp"
 #include "out/layers.hpp"
 #include "picture/truth_picture.hpp"
@@ -40,6 +41,20 @@ nlohmann::ordered_json odometry_report(const Simulated& run) {
           {"way_m", way_m}};
 }
 
+/// Scores the map and draws truth.png; a world that cannot be scored is no reason to lose its map.
+nlohmann::ordered_json against_truth(OutDir& out, const scenes::Scene& scene, const Map& map, const MappingOptions& o) {
+  const SceneTruth truth = scene_truth(scene, map.params().cell_m);
+  if (!truth.grid) return {{"skipped", truth.why_not}};
+  const Layers layers = render_layers(map, o.max_image_mb);
+  nlohmann::ordered_json report = to_json(score(layers, *truth.grid));
+  try {
+    out.write("truth.png", png(draw_truth(layers, *truth.grid, scene.name, o.max_image_mb)), {});
+  } catch (const InputError& large) {
+    report["truth.png"] = large.what();
+  }
+  return report;
+}
+
 void run_scene(Args args, bool rule_given) {
   const auto start = Clock::now();
   MappingOptions& o = args.mapping;
@@ -58,10 +73,7 @@ void run_scene(Args args, bool rule_given) {
                                {"seed", input.scene.trajectory.seed},
                                {"cast_s", simulated.cast_s}};
   if (input.scene.odometry.used) extra["odometry"] = odometry_report(simulated);
-  const scenes::TruthGrid truth = scene_truth(input.scene, plan.params.cell_m);
-  const Layers layers = render_layers(fused.map, o.max_image_mb);
-  extra["truth"] = to_json(score(layers, truth));
-  out.write("truth.png", png(draw_truth(layers, truth, input.scene.name, o.max_image_mb)), {});
+  extra["truth"] = against_truth(out, input.scene, fused.map, o);
   write_results(out, simulated.log, fused, o, start, extra);
 }
 

@@ -39,11 +39,14 @@ raycast::World load_world(const WorldOptions& o, std::optional<scenes::FloorPlan
     throw InputError(fmt::format("--resolution: {} is not within (0, 1000]", *o.resolution_m));
   raycast::World world;
   const std::string end = extension(o.world);
+  const bool mesh = end == ".ply" || end == ".obj";
+  if (o.height_m && !mesh) throw InputError("--height: is for meshes");
+  if (o.resolution_m && o.world == "building") throw InputError("--resolution: is for images and meshes");
   if (o.world == "building") {
     scenes::BuildingSpec building;
     if (o.seed) building.seed = static_cast<std::uint64_t>(*o.seed);
     world = scenes::make_building(building);
-  } else if (end == ".ply" || end == ".obj") {
+  } else if (mesh) {
     scenes::MeshPlacement placement;
     placement.scale = o.resolution_m.value_or(placement.scale);
     placement.height_m = o.height_m.value_or(placement.height_m);

@@ -27,18 +27,20 @@ double longest_s(const TrajectorySpec& run) {
   return time_s;
 }
 
-std::vector<raycast::Point> plan_tour(Table& t, const Scene& scene) {
+/// Sets the waypoints, and the start where its heading is given.
+void plan_tour(Table& t, const Scene& scene, TrajectorySpec& run) {
   TourSpec tour;
-  tour.clearance_m = t.number_or("clearance_m", {0, 100}, scene.radius_m + 0.1);
+  tour.clearance_m = t.number_or("clearance_m", {0, 100, true}, scene.radius_m + 0.05);
   tour.spacing_m = t.number_or("spacing_m", {0.1, 1000}, tour.spacing_m);
   try {
     if (t.has("start")) {
       const Pose start = t.pose("start");
       tour.start = {start.x_m, start.y_m};
+      run.start = start;
     } else {
       tour.start = find_start(scene.world, tour.clearance_m);
     }
-    return make_tour(scene.world, tour);
+    run.waypoints = make_tour(scene.world, tour);
   } catch (const std::invalid_argument& bad) {
     t.fail(t.has("start") ? "start" : "kind", bad.what());
   } catch (const std::length_error& large) {
@@ -68,7 +70,7 @@ TrajectorySpec read_trajectory(Table t, const Scene& scene) {
   if (kind == "tour") {
     for (const char* other : {"waypoints", "velocity"})
       if (t.has(other)) t.fail(other, "cannot be given beside a tour");
-    run.waypoints = plan_tour(t, scene);
+    plan_tour(t, scene, run);
     run.speed_m_s = t.number_or("speed_m_s", {0, 100, true}, run.speed_m_s);
     run.turn_rate_rad_s = t.angle_or("turn_rate_deg_s", {0, 36000, true}, run.turn_rate_rad_s);
   } else if (kind.empty()) {

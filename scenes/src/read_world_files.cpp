@@ -3,7 +3,10 @@
 // unknown, border; [[world.meshes]] file, scale, height_m, x_m, y_m, yaw_deg, up; [world.building] width_m, depth_m,
 // seed, room_m, corridor_m, door_m, wall_m, furniture_per_room; each with a material. Files are looked for from the
 // scene's folder on.
+#include <algorithm>
+#include <cctype>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "evigrid/scenes/building.hpp"
@@ -61,7 +64,10 @@ TraceOptions read_trace_options(Table& t, const Materials& materials) {
 /// All keys are asked for, and unknown ones refused, before the file is opened.
 void read_plan(Table& t, const Materials& materials, const std::filesystem::path& base, raycast::World& world) {
   const std::filesystem::path file = base / t.text("file");
-  const ImageScale scale = read_scale(t, file.extension().string());
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const ImageScale scale = read_scale(t, extension);
   const TraceOptions options = read_trace_options(t, materials);
   t.refuse_unknown_keys();
   try {
@@ -106,7 +112,9 @@ void read_building(Table t, const Materials& materials, raycast::World& world) {
   spec.door_m = t.number_or("door_m", {0.1, 100}, spec.door_m);
   spec.wall_m = t.number_or("wall_m", {0.01, 10}, spec.wall_m);
   spec.furniture_per_room = t.number_or("furniture_per_room", {0, 100}, spec.furniture_per_room);
-  const raycast::Material material = material_of(t, materials);
+  // Without a material of the user's the walls and pieces of furniture keep those they are made with.
+  std::optional<raycast::Material> material;
+  if (t.has("material")) material = material_of(t, materials);
   t.refuse_unknown_keys();
   if (spec.width_m * spec.depth_m > kMostRooms * spec.room_m * spec.room_m)
     t.fail("room_m", "the building would have more than 100000 rooms");
@@ -114,7 +122,7 @@ void read_building(Table t, const Materials& materials, raycast::World& world) {
     raycast::World building = make_building(spec);
     const auto append = [&](auto& to, auto& from) {
       for (auto& shape : from) {
-        shape.material = material;
+        if (material) shape.material = *material;
         to.push_back(std::move(shape));
       }
     };

@@ -136,19 +136,29 @@ void compare(const CompareOptions& given) {
 
   std::vector<Result> results;
   std::optional<scenes::TruthGrid> truth;
+  std::string no_truth;
   CellRect all{};
+  if (!o.mapping.cell_m) {  // one for all, the finest that any of them would take: scores and sheet compare cells
+    for (const Subject& subject : subjects) {
+      if (!subject.scene) continue;
+      o.mapping.cell_m = std::min(o.mapping.cell_m.value_or(subject.scene->map.cell_m), subject.scene->map.cell_m);
+    }
+  }
   for (const Subject& subject : subjects) {
     MappingOptions options = o.mapping;
-    if (subject.scene && !options.cell_m) options.cell_m = subject.scene->map.cell_m;
     const bool cones = std::any_of(subject.log.sensors.begin(), subject.log.sensors.end(),
-                                   [](const LogSensor& s) { return s.sensor.beams == 1; });
+                                   [](const LogSensor& s) { return s.sensor.model != Model::beam; });
     if (cones && sonar_models.empty()) throw InputError("--models: names no model for sonars");
     for (const std::string& rule : o.rules) {
       for (const std::string& model : cones ? sonar_models : std::vector<std::string>{""}) {
         options.rule = rule;
         options.model = model;
         const Plan plan = make_plan(options);
-        if (subject.scene && !truth) truth = scene_truth(*subject.scene, plan.params.cell_m);
+        if (subject.scene && !truth && no_truth.empty()) {
+          SceneTruth known = scene_truth(*subject.scene, plan.params.cell_m);
+          truth = std::move(known.grid);
+          no_truth = std::move(known.why_not);
+        }
         results.push_back(fuse_one(subject, options, plan, truth));
         all = around(all, results.back().layers.rect);
       }
@@ -174,6 +184,7 @@ void compare(const CompareOptions& given) {
   out.write("compare.csv", to_csv(rows));
   out.write("compare.md", to_markdown(rows));
   nlohmann::ordered_json report{{"input", name_of(o)}, {"rows", to_json(rows)}, {"wall_s", seconds_since(start)}};
+  if (!no_truth.empty()) report["truth"] = {{"skipped", no_truth}};
   const std::string bytes = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   out.write("report.json", bytes);
   if (!o.mapping.json.empty() && o.mapping.json != "-") out.write_outside(o.mapping.json, bytes);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Lego robot of Claus Brenner's lectures on SLAM: a laser scanner, wheel ticks, and positions seen by a camera, one
 // file each or all in one, blank-separated, times in ms:
-//   S t 660 d1..d660                 mm, counter-clockwise; beam i (from 0) at (i − 330) · 0.006135923 rad = 1/1024
-//   turn M t left . . . right . . . . . . .  ticks of the wheels, running sums: fields 3 and 7 of 14; 0.349 mm a tick P
-//   t x y                          mm in the camera's frame; L C x y diameter: a landmark there (counted, not used)
+//   S t 660 d1..d660                      mm, counter-clockwise; beam i (from 0) at (i − 330) · 0.006135923 rad, 1/1024
+//                                         of a turn
+//   M t left . . . right . . . . . . .    ticks of the wheels, running sums: fields 3 and 7 of 14; 0.349 mm a tick
+//   P t x y                               mm in the camera's frame
+//   L C x y diameter                      a landmark in that frame (counted, not used)
 // Track 173 mm, scanner 30 mm ahead. The log holds no pose: the robot starts at the origin and its wheels are summed up
 // (dead reckoning); a scan's pose lies between those of the motor records around its time. The P positions do not
 // tell a heading, so they are not used as a start; the report says how far the driven way is from them after the best

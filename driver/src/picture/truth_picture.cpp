@@ -16,12 +16,13 @@ constexpr Rgb kFound{14, 22, 56}, kMissed{213, 94, 0}, kFalseWall{204, 121, 167}
     kFalseEmpty{86, 180, 233}, kUnknown{190, 190, 190}, kSolid{222, 222, 222};
 constexpr int kSide_px = 800, kLeastWidth_px = 860;
 
-Rgb colour_of(scenes::TruthCell truth, Decision said) {
+/// `visible`: a surface that borders free space; the others no sensor can see.
+Rgb colour_of(scenes::TruthCell truth, Decision said, bool visible) {
   if (truth == scenes::TruthCell::free)
     return said == Decision::occupied ? kFalseWall : said == Decision::empty ? kRightlyEmpty : kUnknown;
   if (said == Decision::occupied) return kFound;
   if (said == Decision::empty) return kFalseEmpty;
-  return truth == scenes::TruthCell::surface ? kMissed : kSolid;
+  return visible ? kMissed : kSolid;
 }
 
 }  // namespace
@@ -44,7 +45,7 @@ Canvas draw_truth(const Layers& map, const scenes::TruthGrid& truth, const std::
                                  "{:.3f}, {:.4f}; cell {:g} m",
                                  s.strict.precision, s.strict.recall, s.strict.mistaken_rate, s.near.precision,
                                  s.near.recall, s.near.mistaken_rate, map.cell_m)});
-  draw_cells(canvas, frame, [&](std::size_t i) { return colour_of(o.truth[i], o.map[i]); });
+  draw_cells(canvas, frame, [&](std::size_t i) { return colour_of(o.truth[i], o.map[i], visible_wall(o, i)); });
   int x = kMargin_px, y = frame.top + frame.height_px() + kMargin_px;
   for (const auto& [colour, label] : {std::pair{kFound, "wall found"}, {kMissed, "wall missed"},
                                       {kFalseWall, "wall where free"}, {kFalseEmpty, "empty where wall"}}) {

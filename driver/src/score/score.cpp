@@ -45,14 +45,12 @@ void count_cells(const Overlay& o, Score& score) {
       const Decision said = o.map[i];
       ++score.confusion[static_cast<std::size_t>(truth)][static_cast<std::size_t>(said)];
       const bool wall = truth == TruthCell::surface;
-      const bool visible_wall =
-          wall && near_by(o.rect, x, y, [&](std::size_t k) { return o.truth[k] == TruthCell::free; });
       const bool found = wall && near_by(o.rect, x, y, [&](std::size_t k) { return o.map[k] == Decision::occupied; });
       if (truth == TruthCell::free) {
         ++free;
         known += said != Decision::unknown;
       }
-      if (visible_wall) {
+      if (visible_wall(o, i)) {
         ++strict.walls, ++near.walls;
         strict.found += said == Decision::occupied;
         near.found += found;
@@ -117,6 +115,13 @@ class Means {
 Decision decide(float e, float o, float u) noexcept {
   if (!(u < 0.5F) || e == o) return Decision::unknown;
   return o > e ? Decision::occupied : Decision::empty;
+}
+
+bool visible_wall(const Overlay& o, std::size_t i) {
+  const auto at = static_cast<std::int64_t>(i);
+  return o.truth[i] == TruthCell::surface &&
+         near_by(o.rect, at % o.rect.width, at / o.rect.width,
+                 [&](std::size_t k) { return o.truth[k] == TruthCell::free; });
 }
 
 Overlay overlay(const Layers& map, const scenes::TruthGrid& truth) {

@@ -22,6 +22,8 @@ struct Overlay {
   std::vector<Decision> map;             ///< outside the map: unknown
 };
 [[nodiscard]] Overlay overlay(const Layers& map, const scenes::TruthGrid& truth);
+/// Whether cell i is a surface with a free cell among its 8 neighbours: one that a sensor could see.
+[[nodiscard]] bool visible_wall(const Overlay& overlay, std::size_t i);
 
 /// Shares are NaN when there is nothing to divide by. "near" forgives one cell (8 neighbours) of misplacement: a cell
 /// called occupied is right when a wall is within one cell; a wall is found when a cell within one cell of it is called

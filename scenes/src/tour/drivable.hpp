@@ -14,6 +14,11 @@ using CellIndex = std::uint32_t;
 inline constexpr std::uint32_t kStraight = 1000, kDiagonal = 1414;
 inline constexpr std::uint32_t kUnreached = 0xffffffffu;
 
+/// A way too long to be told (4 million cells) counts as none.
+[[nodiscard]] inline std::uint32_t sum(std::uint32_t a, std::uint32_t b) {
+  return a > kUnreached - b ? kUnreached : a + b;
+}
+
 struct DriveGrid {
   std::int64_t x = 0, y = 0, width = 0, height = 0;
   double cell_m = 0;

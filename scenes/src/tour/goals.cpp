@@ -28,7 +28,7 @@ class GoalGraph {
       for (const Step& step : steps(grid)) {
         const std::size_t j = i + static_cast<std::size_t>(step.offset);
         if (goals.owner[j] == kUnreached || goals.owner[j] == goals.owner[i]) continue;
-        edges.push_back({goals.owner[i], goals.owner[j], goals.length[i] + step.length + goals.length[j]});
+        edges.push_back({goals.owner[i], goals.owner[j], sum(sum(goals.length[i], step.length), goals.length[j])});
       }
     }
     std::sort(edges.begin(), edges.end(),
@@ -43,7 +43,9 @@ class GoalGraph {
   /// Visits goals in the order of their distance from `from` until visit(goal, length) answers true.
   template <class Visit>
   void spread(std::uint32_t from, Visit visit) {
-    length_.assign(begin_.size() - 1, kUnreached);
+    length_.resize(begin_.size() - 1, kUnreached);
+    for (const std::uint32_t goal : touched_) length_[goal] = kUnreached;  // of the last call: far fewer than all
+    touched_.assign(1, from);
     std::priority_queue<Front, std::vector<Front>, std::greater<>> open;
     length_[from] = 0;
     open.push({0, from});
@@ -53,8 +55,9 @@ class GoalGraph {
       if (front.length > length_[front.cell]) continue;
       if (visit(front.cell, front.length)) return;
       for (std::size_t k = begin_[front.cell]; k < begin_[front.cell + 1]; ++k) {
-        const std::uint32_t length = front.length + edges_[k].length;
+        const std::uint32_t length = sum(front.length, edges_[k].length);
         if (length >= length_[edges_[k].b]) continue;
+        if (length_[edges_[k].b] == kUnreached) touched_.push_back(edges_[k].b);
         length_[edges_[k].b] = length;
         open.push({length, edges_[k].b});
       }
@@ -64,7 +67,7 @@ class GoalGraph {
  private:
   std::vector<std::size_t> begin_;
   std::vector<Edge> edges_;
-  std::vector<std::uint32_t> length_;
+  std::vector<std::uint32_t> length_, touched_;  // touched_: goals whose length_ is not kUnreached
 };
 
 std::vector<std::uint32_t> nearest_first(GoalGraph& graph, std::size_t count) {

@@ -12,6 +12,7 @@ namespace {
 using raycast::Point;
 
 constexpr std::int64_t kMostBins = 1 << 24;
+constexpr double kMostItems = 1 << 26;  // of all bins, about
 
 double square(double v) { return v * v; }
 double squared_length(Point a, Point b) { return square(b.x_m - a.x_m) + square(b.y_m - a.y_m); }
@@ -56,6 +57,10 @@ Nearby::Nearby(const Outline& outline, double bin_m) : outline_(&outline), bin_m
   if (low.x_m > high.x_m) low = high = {};
   const auto count = [&](double length) { return std::floor(length / bin_m_) + 1; };
   while (count(high.x_m - low.x_m) * count(high.y_m - low.y_m) > static_cast<double>(kMostBins)) bin_m_ *= 2;
+  double way_m = 0;  // along x and along y: a curve is in a bin or two for each bin_m of it
+  for (const Segment& s : outline.segments) way_m += std::abs(s.b.x_m - s.a.x_m) + std::abs(s.b.y_m - s.a.y_m);
+  for (const Ring& r : outline.rings) way_m += 8 * r.radius_m;
+  while (way_m / bin_m_ > kMostItems) bin_m_ *= 2;
   x_m_ = low.x_m;
   y_m_ = low.y_m;
   width_ = static_cast<std::int64_t>(count(high.x_m - low.x_m));
@@ -69,15 +74,7 @@ Nearby::Nearby(const Outline& outline, double bin_m) : outline_(&outline), bin_m
       any_bin(s.a, s.b, slack, [&](std::size_t bin) { return put(bin, i), false; });
     }
     for (std::size_t i = 0; i < outline.rings.size(); ++i) {
-      const Ring& r = outline.rings[i];
-      any_bin(r.centre, r.centre, r.radius_m + slack, [&](std::size_t bin) {
-        const double x = x_m_ + bin_m_ * static_cast<double>(static_cast<std::int64_t>(bin) % width_);
-        const double y = y_m_ + bin_m_ * static_cast<double>(static_cast<std::int64_t>(bin) / width_);
-        const double far_x = std::max(std::abs(x - r.centre.x_m), std::abs(x + bin_m_ - r.centre.x_m));
-        const double far_y = std::max(std::abs(y - r.centre.y_m), std::abs(y + bin_m_ - r.centre.y_m));
-        if (std::hypot(far_x, far_y) + slack >= r.radius_m) put(bin, outline.segments.size() + i);
-        return false;
-      });
+      each_bin_of(outline.rings[i], slack, [&](std::size_t bin) { put(bin, outline.segments.size() + i); });
     }
   };
   begin_.assign(static_cast<std::size_t>(width_ * height_) + 1, 0);
@@ -86,6 +83,33 @@ Nearby::Nearby(const Outline& outline, double bin_m) : outline_(&outline), bin_m
   items_.resize(begin_.back());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   place([&](std::size_t bin, std::size_t item) { items_[next[bin]++] = static_cast<std::uint32_t>(item); });
+}
+
+template <class Visit>
+void Nearby::each_bin_of(const Ring& r, double slack_m, Visit visit) const {
+  const auto column = [&](double x_m) {
+    return static_cast<std::int64_t>(std::clamp(std::floor((x_m - x_m_) / bin_m_), 0.0, static_cast<double>(width_ - 1)));
+  };
+  const auto row = [&](double y_m) {
+    return static_cast<std::int64_t>(
+        std::clamp(std::floor((y_m - y_m_) / bin_m_), 0.0, static_cast<double>(height_ - 1)));
+  };
+  const double outer_m = r.radius_m + slack_m, inner_m = std::max(r.radius_m - slack_m, 0.0);
+  for (std::int64_t y = row(r.centre.y_m - outer_m), last = row(r.centre.y_m + outer_m); y <= last; ++y) {
+    const double low = y_m_ + static_cast<double>(y) * bin_m_ - r.centre.y_m, high = low + bin_m_;
+    const double near = std::max({low, -high, 0.0}), far = std::max(std::abs(low), std::abs(high));
+    const double reach = std::sqrt(std::max(square(outer_m) - square(near), 0.0)) + slack_m;
+    // Within the hole of this row nothing of the circle passes, less a bin on either side.
+    const double hole = std::sqrt(std::max(square(inner_m) - square(far), 0.0)) - slack_m;
+    const std::int64_t first = column(r.centre.x_m - reach), end = column(r.centre.x_m + reach) + 1;
+    std::int64_t hole_first = end, hole_end = end;
+    if (hole > 0) {
+      hole_first = std::min(column(r.centre.x_m - hole) + 1, end);
+      hole_end = std::max(column(r.centre.x_m + hole), hole_first);
+    }
+    for (std::int64_t x = first; x < hole_first; ++x) visit(static_cast<std::size_t>(y * width_ + x));
+    for (std::int64_t x = hole_end; x < end; ++x) visit(static_cast<std::size_t>(y * width_ + x));
+  }
 }
 
 template <class Visit>

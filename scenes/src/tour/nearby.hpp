@@ -26,6 +26,10 @@ class Nearby {
   template <class Visit>
   bool any_bin(raycast::Point a, raycast::Point b, double reach_m, Visit visit) const;
 
+  /// Calls visit(bin) once for every bin that the circle passes through (and a few more).
+  template <class Visit>
+  void each_bin_of(const Ring& r, double slack_m, Visit visit) const;
+
   const Outline* outline_;
   double bin_m_, x_m_ = 0, y_m_ = 0;  // lower left corner of the bins
   std::int64_t width_ = 0, height_ = 0;

@@ -17,12 +17,13 @@ std::vector<CellIndex> Pathfinder::path(CellIndex from, CellIndex to) {
     return a.length != b.length ? a.length < b.length : a.cell > b.cell;
   };
   const auto reach = [&](CellIndex cell, std::uint32_t length) {
-    if (run_[cell] == runs_ && length >= length_[cell]) return;
+    if (length == kUnreached || (run_[cell] == runs_ && length >= length_[cell])) return;
     run_[cell] = runs_;
     length_[cell] = length;
     const std::int64_t dx = std::abs(cell % w - to_x), dy = std::abs(cell / w - to_y);  // octile distance
-    const auto rest = static_cast<std::uint32_t>(std::min(dx, dy) * kDiagonal + std::abs(dx - dy) * kStraight);
-    heap_.push_back({length + rest, length, cell});
+    const auto rest = static_cast<std::uint32_t>(
+        std::min<std::int64_t>(std::min(dx, dy) * kDiagonal + std::abs(dx - dy) * kStraight, kUnreached));
+    heap_.push_back({sum(length, rest), length, cell});
     std::push_heap(heap_.begin(), heap_.end(), later);
   };
   reach(from, 0);
@@ -34,7 +35,7 @@ std::vector<CellIndex> Pathfinder::path(CellIndex from, CellIndex to) {
     if (open.length > length_[open.cell]) continue;
     for (const Step& step : steps_) {
       const auto next = static_cast<CellIndex>(open.cell + step.offset);
-      if (grid_->drivable[next]) reach(next, open.length + step.length);
+      if (grid_->drivable[next]) reach(next, sum(open.length, step.length));
     }
   }
   if (heap_.empty()) return {};
@@ -43,7 +44,7 @@ std::vector<CellIndex> Pathfinder::path(CellIndex from, CellIndex to) {
     for (const Step& step : steps_) {
       const auto before = static_cast<CellIndex>(path.back() + step.offset);
       if (!grid_->drivable[before] || run_[before] != runs_) continue;
-      if (length_[before] + step.length != length_[path.back()]) continue;
+      if (sum(length_[before], step.length) > length_[path.back()]) continue;
       path.push_back(before);
       break;
     }

@@ -24,7 +24,7 @@ void Spread::run(const std::vector<CellIndex>& sources, std::uint32_t farthest, 
     if (front.length > length[front.cell]) continue;
     for (const Step& step : steps_) {
       const auto next = static_cast<CellIndex>(front.cell + step.offset);
-      if (grid_->drivable[next]) reach(next, front.length + step.length);
+      if (grid_->drivable[next]) reach(next, sum(front.length, step.length));
     }
   }
 }

@@ -138,6 +138,7 @@ std::vector<Point> make_tour(const raycast::World& world, const TourSpec& spec) 
   for (const std::uint32_t goal : order_goals(grid, goals)) {
     if (left[goal] == 0) continue;
     const std::vector<CellIndex> path = finder.path(here, goals.cells[goal]);
+    if (path.empty()) continue;  // farther than a way can be told
     cover(path);
     std::vector<Point> way{waypoints.back()};
     for (const CellIndex i : path) way.push_back(grid.centre(i));
