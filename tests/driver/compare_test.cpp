@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// compare: one table over rules, models and robots, and scores that do not depend on who else is in it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "decoded_png.hpp"
+#include "program.hpp"
+#include "text.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kRoom = R"([map]
+cell_m = 0.1
+rule = "pcr5"
+[[world.polygons]]
+vertices = [[0, 0], [6, 0], [6, 4], [0, 4]]
+[robot]
+use = "hughes24"
+[trajectory]
+waypoints = [[1, 1], [5, 1], [5, 3]]
+seed = 3
+)";
+
+Json report_of(const TempDir& dir, const std::string& folder) {
+  return Json::parse(slurp(dir.at(folder + "/report.json")));
+}
+
+TEST(Compare, EveryRuleAndModelOfASceneOnce) {
+  const TempDir dir;
+  const std::string scene = dir.write("room.toml", kRoom);
+  const Ran ran = evigrid({"compare", scene, "-o", dir.at("out"), "--rules", "dempster,pcr5", "--models", "all"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const Json rows = report_of(dir, "out")["rows"];
+  ASSERT_EQ(rows.size(), 4u);  // two rules by two sonar models
+  for (const Json& row : rows) {
+    EXPECT_GT(row["cells_updated"], 1000);
+    EXPECT_GT(row["score"]["within_one_cell"]["recall"], 0.5);
+  }
+  // The same numbers as `run` gives for one of them.
+  const Ran one = evigrid({"run", scene, "-o", dir.at("one"), "--rule", "dempster", "--model", "li2014", "--json", "-"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  const Json alone = Json::parse(one.out);
+  bool found = false;
+  for (const Json& row : rows) {
+    if (row["rule"] != "dempster" || row["model"] != "li2014") continue;
+    found = true;
+    EXPECT_EQ(row["map_hash"], alone["map_hash"]);
+    EXPECT_EQ(row["score"], alone["truth"]);
+  }
+  EXPECT_TRUE(found);
+  for (const char* file : {"compare.csv", "compare.md", "sheet.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(dir.at(std::string("out/") + file))) << file;
+  }
+}
+
+TEST(Compare, RobotsWithDifferentCellsOfTheirOwnShareOne) {
+  const TempDir dir;
+  const std::vector<std::string> world{"--world", "building", "--seed", "2"};
+  std::vector<std::string> both{"compare", "-o",       dir.at("both"), "--robots", "ring8,laser360",
+                                "--rules", "dempster", "--models",     "li2014",   "--max-range", "3"};
+  both.insert(both.end(), world.begin(), world.end());
+  std::vector<std::string> alone{"compare",  "-o",       dir.at("alone"), "--robots", "laser360",   "--rules",
+                                 "dempster", "--models", "li2014",        "--max-range", "3"};
+  alone.insert(alone.end(), world.begin(), world.end());
+  const Ran first = evigrid(both), second = evigrid(alone);
+  ASSERT_EQ(first.code, 0) << first.err;
+  ASSERT_EQ(second.code, 0) << second.err;
+  const Json laser = report_of(dir, "both")["rows"][1], same = report_of(dir, "alone")["rows"][0];
+  EXPECT_EQ(laser["robot"], "laser360");
+  EXPECT_EQ(laser["map_hash"], same["map_hash"]);
+  EXPECT_EQ(laser["score"], same["score"]);
+}
+
+TEST(Compare, BadWordsAreNamed) {
+  const TempDir dir;
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& word) {
+    arguments.insert(arguments.begin(), {"compare", "-o", dir.at("out")});
+    const Ran ran = evigrid(arguments);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_TRUE(contains(ran.err, word)) << ran.err;
+    EXPECT_FALSE(std::filesystem::exists(dir.at("out")));
+  };
+  refused({"default", "--rules", "dempster,foo"}, "foo");
+  refused({"default", "--models", "foo"}, "foo");
+  refused({"default", "--rules", ","}, "--rules");
+  refused({"default", "--robots", "foo"}, "foo");
+  refused({dir.at("missing.log")}, "missing.log");
+  refused({"default", "--world", "building"}, "--world");
+}
+
+TEST(Run, AWorldThatCannotBeScoredStillGivesItsMap) {
+  const TempDir dir;
+  std::string scene = kRoom;
+  scene.replace(scene.find("[6, 4]"), 6, "[6, 4000000]");
+  scene.replace(scene.find("[0, 4]"), 6, "[0, 4000000]");
+  const Ran ran = evigrid({"run", dir.write("far.toml", scene), "-o", dir.at("out"), "--json", "-"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(contains(Json::parse(ran.out)["truth"]["skipped"].dump(), "cells"));
+  EXPECT_TRUE(std::filesystem::exists(dir.at("out/map.png")));
+  EXPECT_FALSE(std::filesystem::exists(dir.at("out/truth.png")));
+}
+
+}  // namespace
+}  // namespace evigrid::driver
