@@ -42,6 +42,9 @@ int run_program(int argc, const char* const* argv) {
     add_model(app);
     add_show(app);
     add_info(app);
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+      return std::string("evigrid: ") + error.what() + "\nRun with --help for more information.\n";
+    });
     require_known_command(app, argc > 1 ? argv[1] : "");
     try {
       app.parse(argc, argv);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "error.hpp"
 #include "evigrid/raycast/scene.hpp"
@@ -61,6 +62,22 @@ void require_memory(const scenes::Scene& scene, std::size_t steps) {
   }
 }
 
+/// A way through a wall is most likely a slip in the scene's numbers; a map of it would look like a broken mapper.
+void warn_of_walls(const raycast::Scene& caster, const std::vector<scenes::Pose>& poses, Log& log) {
+  std::size_t crossings = 0;
+  std::string first;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const scenes::Pose &a = poses[i - 1], &b = poses[i];
+    const double way_m = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
+    if (way_m == 0) continue;
+    const double hit_m = caster.ray_range(a.x_m, a.y_m, std::atan2(b.y_m - a.y_m, b.x_m - a.x_m), way_m);
+    if (!(hit_m < way_m)) continue;
+    if (crossings++ == 0) first = fmt::format("step {} near ({:.2f}, {:.2f})", i, a.x_m, a.y_m);
+  }
+  if (crossings > 0)
+    log.warnings.push_back(fmt::format("the robot drives through walls in {} of its steps, first in {}", crossings, first));
+}
+
 void append(Log& log, std::size_t sensor, const float* first, std::size_t count) {
   log.readings.push_back({sensor, log.ranges_m.size(), count});
   log.ranges_m.insert(log.ranges_m.end(), first, first + count);
@@ -75,16 +92,24 @@ std::string embedded_scene_names() {
   return names;
 }
 
+scenes::Vocabulary vocabulary() {
+  scenes::Vocabulary words;
+  for (const Rule rule : all_rules()) words.rules.emplace_back(name(rule));
+  for (const Model model : all_models())
+    (model == Model::beam ? words.laser_models : words.sonar_models).emplace_back(name(model));
+  return words;
+}
+
 SceneInput open_scene(const std::string& name_or_path) {
   try {
     if (name_or_path.empty())
-      return {"(embedded scene)", scenes::parse_scene(scenes::default_scene_text(), "(embedded scene)")};
+      return {"(embedded scene)", scenes::parse_scene(scenes::default_scene_text(), "(embedded scene)", vocabulary())};
     const std::string_view text = scenes::find_embedded(scenes::embedded_scenes(), name_or_path);
     if (!text.empty()) {
       const std::string name = "(embedded scene " + name_or_path + ")";
-      return {name, scenes::parse_scene(text, name)};
+      return {name, scenes::parse_scene(text, name, vocabulary())};
     }
-    return {name_or_path, scenes::load_scene(name_or_path)};
+    return {name_or_path, scenes::load_scene(name_or_path, vocabulary())};
   } catch (const scenes::SceneError& error) {
     // Neither a path nor a file's ending: an embedded scene was meant.
     const bool a_name = name_or_path.find_first_of("./\\") == std::string::npos;
@@ -109,6 +134,8 @@ Simulated simulate(const scenes::Scene& scene, const CastOptions& options) {
   const raycast::Scene caster = scenes::make_caster(copy);
   const scenes::Simulation simulation(copy, caster);
   require_memory(copy, simulation.steps());
+  warn_of_walls(caster, simulation.poses(), out.log);
+  if (simulation.steps() == 1) out.log.warnings.push_back("the robot stands still: one scan only; in a tour it has no room to drive, try a smaller robot or another start");
   Progress progress("casting");
   for (std::size_t at = 0; at < simulation.steps(); at += kBatch) {
     const std::size_t count = std::min(kBatch, simulation.steps() - at);

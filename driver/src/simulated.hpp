@@ -17,6 +17,9 @@ struct SceneInput {
 /// The name of an embedded scene, or a file; empty: the default scene. Throws InputError naming file, line and field.
 SceneInput open_scene(const std::string& name_or_path);
 
+/// The rules and models of the engine, as scenes may name them.
+scenes::Vocabulary vocabulary();
+
 /// "default, hughes1992, …"
 std::string embedded_scene_names();
 

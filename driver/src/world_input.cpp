@@ -18,6 +18,7 @@
 #include "evigrid/scenes/mesh.hpp"
 #include "evigrid/scenes/plan.hpp"
 #include "evigrid/scenes/tour.hpp"
+#include "evigrid/scenes/truth.hpp"
 #include "log/line_reader.hpp"
 #include "widest_place.hpp"
 
@@ -41,6 +42,10 @@ raycast::World load_world(const WorldOptions& o, std::optional<scenes::FloorPlan
   const std::string end = extension(o.world);
   const bool mesh = end == ".ply" || end == ".obj";
   if (o.height_m && !mesh) throw InputError("--height: is for meshes");
+  if (!o.up.empty() && !mesh) throw InputError("--up: is for meshes");
+  if (!o.up.empty() && o.up != "y" && o.up != "z") throw InputError(fmt::format("--up: '{}' is neither y nor z", o.up));
+  const bool image = !mesh && o.world != "building" && end != ".yaml" && end != ".yml" && end != ".map";
+  if (image && !o.resolution_m) throw InputError(fmt::format("--resolution: is missing, the m per pixel of {}", o.world));
   if (o.resolution_m && o.world == "building") throw InputError("--resolution: is for images and meshes");
   if (o.world == "building") {
     scenes::BuildingSpec building;
@@ -50,7 +55,7 @@ raycast::World load_world(const WorldOptions& o, std::optional<scenes::FloorPlan
     scenes::MeshPlacement placement;
     placement.scale = o.resolution_m.value_or(placement.scale);
     placement.height_m = o.height_m.value_or(placement.height_m);
-    placement.y_up = end == ".obj";
+    placement.y_up = o.up.empty() ? end == ".obj" : o.up == "y";
     world.walls = scenes::slice(scenes::load_mesh(o.world), placement);
   } else {
     scenes::ImageScale scale;
@@ -94,11 +99,19 @@ void add_tour(scenes::Scene& scene, const WorldOptions& o, const std::optional<s
     } else {
       const scenes::Pose start = parse_start(o.start, with_yaw);
       tour.start = {start.x_m, start.y_m};
+      const scenes::Extent box = scenes::extent(scene.world);
+      if (start.x_m < box.low.x_m || start.x_m > box.high.x_m || start.y_m < box.low.y_m || start.y_m > box.high.y_m) {
+        throw InputError(fmt::format("--start: ({:g}, {:g}) lies outside of the world, which is [{:.3f}, {:.3f}] x [{:.3f}, {:.3f}] m",
+                                     start.x_m, start.y_m, box.low.x_m, box.high.x_m, box.low.y_m, box.high.y_m));
+      }
       if (with_yaw) scene.trajectory.start = start;
     }
     scene.trajectory.waypoints = scenes::make_tour(scene.world, tour);
   } catch (const std::invalid_argument& bad) {
-    throw InputError(fmt::format("{}: {}", o.start.empty() ? o.world : "--start", bad.what()));
+    throw InputError(o.start.empty() ? fmt::format("{}: no --start is given, and in the widest place {}; a --start or a "
+                                                   "smaller --robot may help",
+                                                   o.world, bad.what())
+                                     : fmt::format("--start: {}", bad.what()));
   } catch (const std::length_error& large) {
     throw InputError(fmt::format("{}: {}", o.world, large.what()));
   }
@@ -110,7 +123,7 @@ SceneInput open_world(const WorldOptions& o) {
   scene.name = std::filesystem::path(o.world).stem().string();
   std::optional<scenes::FloorPlan> plan;
   scene.world = load_world(o, plan);
-  scenes::use_robot(scene, o.robot.empty() ? "laser360" : o.robot);
+  scenes::use_robot(scene, o.robot.empty() ? "laser360" : o.robot, vocabulary());
   scene.map.cell_m = scene.lasers.empty() ? kSonarCell_m : kLaserCell_m;
   scene.trajectory.period_s = kPeriod_s;
   scene.trajectory.seed = static_cast<std::uint64_t>(o.seed.value_or(1));
@@ -129,6 +142,7 @@ void add_world_options(CLI::App& command, WorldOptions& o) {
   command.add_option("--start", o.start, "x,y or x,y,yaw_deg in a --world (default: in its widest place)");
   command.add_option("--resolution", o.resolution_m, "m per pixel of a --world image, m per unit of a mesh");
   command.add_option("--height", o.height_m, "m above the origin of a --world mesh where it is cut");
+  command.add_option("--up", o.up, "y or z: which axis of a --world mesh points up (default: y in .obj, z in .ply)");
   command.add_option("--seed", o.seed, "of noise and of --world building (default: the scene's; 1)");
 }
 
@@ -141,11 +155,12 @@ SceneInput open_input(const WorldOptions& o) {
     }
     for (const auto& [given, name] : {std::pair{!o.start.empty(), "--start"},
                                       {o.resolution_m.has_value(), "--resolution"},
-                                      {o.height_m.has_value(), "--height"}}) {
+                                      {o.height_m.has_value(), "--height"},
+                                      {!o.up.empty(), "--up"}}) {
       if (given) throw InputError(fmt::format("{}: is for --world", name));
     }
     SceneInput input = open_scene(o.scene);
-    if (!o.robot.empty()) scenes::use_robot(input.scene, o.robot);
+    if (!o.robot.empty()) scenes::use_robot(input.scene, o.robot, vocabulary());
     if (o.seed) input.scene.trajectory.seed = static_cast<std::uint64_t>(*o.seed);
     return input;
   } catch (const scenes::SceneError& error) {

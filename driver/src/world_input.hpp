@@ -15,6 +15,7 @@ struct WorldOptions {
   std::string scene;  ///< file or name
   std::string world;  ///< plan, mesh, or "building"
   std::string robot, start;
+  std::string up;  ///< of a mesh: "y", "z", or as usual for its format
   std::optional<double> resolution_m, height_m;
   std::optional<std::int64_t> seed;
 };

@@ -123,6 +123,9 @@ void write_results(OutDir& out, const Log& log, const Fused& fused, const Mappin
   out.write("report.json", bytes);
   if (!options.json.empty() && options.json != "-") out.write_outside(options.json, bytes);
   out.commit();
+  for (const std::string& warning : log.warnings) {
+    if (log.format == "scene") std::cerr << "evigrid: warning: " << warning << '\n';  // those of a recording are counted
+  }
   if (options.json == "-") {
     std::cout << bytes;
   } else {

@@ -202,7 +202,8 @@ void Table::refuse_unknown_keys() const {
       return distance(name, l) < distance(name, r);
     });
     std::string message = "is unknown";
-    if (nearest != known_.end()) message += "; did you mean " + *nearest + "?";
+    if (nearest != known_.end() && 2 * distance(name, *nearest) <= name.size())  // else it is no slip of the pen
+      message += "; did you mean " + *nearest + "?";
     const auto line = std::max<toml::source_index>(1, key.source().begin.line);
     throw SceneError(file_of(key.source()) + ":" + std::to_string(line) + ": " + name_of(name) + ": " + message);
   }

@@ -29,10 +29,11 @@ Pose read_mount(Table& t) {
 }
 
 /// Fields of a sonar, over those of `base`; without a base all that have no natural value are required.
-SonarSpec read_sonar(Table& t, const SonarSpec* base) {
+SonarSpec read_sonar(Table& t, const SonarSpec* base, const Vocabulary& words) {
   SonarSpec s = base ? *base : SonarSpec{};
   const auto required = [&](const char* key) { return !base || t.has(key); };
   s.model = required("model") ? t.text("model") : t.text_or("model", s.model);
+  if (required("model")) require_known(t, "model", s.model, words.sonar_models);
   const Limits aperture_deg{0, 60, true};
   s.aperture_rad = required("aperture_deg") ? t.angle("aperture_deg", aperture_deg)
                                             : t.angle_or("aperture_deg", aperture_deg, s.aperture_rad);
@@ -53,27 +54,28 @@ void add_ring(Table ring, const SonarSpec& base, std::vector<SonarSpec>& sonars)
   }
 }
 
-std::vector<SonarSpec> read_sonars(Table& robot) {
+std::vector<SonarSpec> read_sonars(Table& robot, const Vocabulary& words) {
   std::vector<SonarSpec> sonars;
   std::vector<Table> singles = robot.tables("sonar", kMostSonars);
   const bool any = robot.has("ring") || !singles.empty();
   Table sensor = any ? robot.table("sensor") : robot.table_or_empty("sensor");
   Table ring = robot.table_or_empty("ring");
   if (!any && !robot.has("sensor")) return sonars;
-  const SonarSpec base = read_sonar(sensor, nullptr);
+  const SonarSpec base = read_sonar(sensor, nullptr, words);
   sensor.refuse_unknown_keys();
   if (robot.has("ring")) add_ring(ring, base, sonars);
   for (Table& t : singles) {
-    sonars.push_back(read_sonar(t, &base));
+    sonars.push_back(read_sonar(t, &base, words));
     sonars.back().T_robot_sensor = read_mount(t);
     t.refuse_unknown_keys();
   }
   return sonars;
 }
 
-LaserSpec read_laser(Table& t) {
+LaserSpec read_laser(Table& t, const Vocabulary& words) {
   LaserSpec s;
   s.model = t.text_or("model", s.model);
+  if (t.has("model")) require_known(t, "model", s.model, words.laser_models);
   s.T_robot_sensor = read_mount(t);
   s.first_rad = t.angle("first_deg", kTurn_deg);
   s.step_rad = t.angle("step_deg", {0, 360, true});
@@ -107,12 +109,12 @@ EchoSpec read_echo(Table t) {
 
 }  // namespace
 
-void read_robot(Table robot, Scene& scene) {
+void read_robot(Table robot, Scene& scene, const Vocabulary& words) {
   (void)robot.text_or("use", "");  // merged already; named here as a known key
   scene.radius_m = robot.number_or("radius_m", {0, 100}, 0.2);
-  scene.sonars = read_sonars(robot);
+  scene.sonars = read_sonars(robot, words);
   scene.lasers.clear();
-  for (Table& t : robot.tables("laser", kMostLasers)) scene.lasers.push_back(read_laser(t));
+  for (Table& t : robot.tables("laser", kMostLasers)) scene.lasers.push_back(read_laser(t, words));
   scene.echo = read_echo(robot.table_or_empty("echo"));
   scene.odometry = read_odometry(robot.table_or_empty("odometry"));
   robot.refuse_unknown_keys();

@@ -28,8 +28,9 @@ double longest_s(const TrajectorySpec& run) {
 }
 
 /// Sets the waypoints, and the start where its heading is given.
-void plan_tour(Table& t, const Scene& scene, TrajectorySpec& run) {
+void plan_tour(Table& t, const Scene& scene, const SceneLimits& limits, TrajectorySpec& run) {
   TourSpec tour;
+  tour.most_cells = limits.most_tour_cells;
   tour.clearance_m = t.number_or("clearance_m", {0, 100, true}, scene.radius_m + 0.05);
   tour.spacing_m = t.number_or("spacing_m", {0.1, 1000}, tour.spacing_m);
   try {
@@ -38,7 +39,7 @@ void plan_tour(Table& t, const Scene& scene, TrajectorySpec& run) {
       tour.start = {start.x_m, start.y_m};
       run.start = start;
     } else {
-      tour.start = find_start(scene.world, tour.clearance_m);
+      tour.start = find_start(scene.world, tour.clearance_m, tour.cell_m, tour.most_cells);
     }
     run.waypoints = make_tour(scene.world, tour);
   } catch (const std::invalid_argument& bad) {
@@ -64,13 +65,13 @@ void read_route(Table& t, TrajectorySpec& run) {
   run.turn_rate_rad_s = t.angle_or("turn_rate_deg_s", {0, 36000, true}, run.turn_rate_rad_s);
 }
 
-TrajectorySpec read_trajectory(Table t, const Scene& scene) {
+TrajectorySpec read_trajectory(Table t, const Scene& scene, const SceneLimits& limits) {
   TrajectorySpec run;
   const std::string kind = t.text_or("kind", "");
   if (kind == "tour") {
     for (const char* other : {"waypoints", "velocity"})
       if (t.has(other)) t.fail(other, "cannot be given beside a tour");
-    plan_tour(t, scene, run);
+    plan_tour(t, scene, limits, run);
     run.speed_m_s = t.number_or("speed_m_s", {0, 100, true}, run.speed_m_s);
     run.turn_rate_rad_s = t.angle_or("turn_rate_deg_s", {0, 36000, true}, run.turn_rate_rad_s);
   } else if (kind.empty()) {

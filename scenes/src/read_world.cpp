@@ -55,11 +55,11 @@ raycast::World read_shapes(Table& table, const Materials& materials) {
   return world;
 }
 
-raycast::World read_world(Table& root, const std::filesystem::path& base) {
+raycast::World read_world(Table& root, const std::filesystem::path& base, const SceneLimits& limits) {
   const Materials materials = read_materials(root.table_or_empty("material"));
   Table table = root.table("world");
   raycast::World world = read_shapes(table, materials);
-  read_world_files(table, materials, base, world);
+  read_world_files(table, materials, base, limits, world);
   table.refuse_unknown_keys();
   return world;
 }

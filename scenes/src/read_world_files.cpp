@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMostFiles = 64;
 /// All plans and meshes of a world together.
 constexpr std::size_t kMostCorners = 20'000'000;
-constexpr double kMostRooms = 1e5;
+constexpr double kPiecesPerRoom = 10;  // of the limit; a building of furniture_per_room 3 is far below
 constexpr Limits kPlace_m{-1e7, 1e7};
 
 /// What a format says itself must not be said again: one of the two would be ignored.
@@ -101,7 +101,7 @@ void read_mesh(Table& t, const Materials& materials, const std::filesystem::path
   }
 }
 
-void read_building(Table t, const Materials& materials, raycast::World& world) {
+void read_building(Table t, const Materials& materials, const SceneLimits& limits, raycast::World& world) {
   BuildingSpec spec;
   spec.width_m = t.number_or("width_m", {1, 1e4}, spec.width_m);
   spec.depth_m = t.number_or("depth_m", {1, 1e4}, spec.depth_m);
@@ -116,8 +116,14 @@ void read_building(Table t, const Materials& materials, raycast::World& world) {
   std::optional<raycast::Material> material;
   if (t.has("material")) material = material_of(t, materials);
   t.refuse_unknown_keys();
-  if (spec.width_m * spec.depth_m > kMostRooms * spec.room_m * spec.room_m)
-    t.fail("room_m", "the building would have more than 100000 rooms");
+  const auto most_pieces = static_cast<double>(limits.most_pieces);
+  const double rooms = spec.width_m * spec.depth_m / (spec.room_m * spec.room_m);
+  if (rooms > most_pieces / kPiecesPerRoom)
+    t.fail("room_m", "the building would have more than " +
+                         std::to_string(limits.most_pieces / static_cast<std::int64_t>(kPiecesPerRoom)) + " rooms");
+  if (std::max(rooms, 1.0) * spec.furniture_per_room > most_pieces)
+    t.fail("furniture_per_room",
+           "the building would have more than " + std::to_string(limits.most_pieces) + " pieces of furniture");
   try {
     raycast::World building = make_building(spec);
     const auto append = [&](auto& to, auto& from) {
@@ -138,12 +144,13 @@ void read_building(Table t, const Materials& materials, raycast::World& world) {
 }  // namespace
 
 void read_world_files(Table& table, const Materials& materials, const std::filesystem::path& base,
-                      raycast::World& world) {
+                      const SceneLimits& limits, raycast::World& world) {
   const auto check = [&](Table& t) {
     std::size_t corners = 2 * world.walls.size();
     for (const raycast::Polygon& p : world.polygons) corners += p.vertices.size();
     if (corners > kMostCorners) t.fail("file", "the world would have more than 20 million corners");
   };
+  if (!limits.files) refuse(table, {"plans", "meshes"}, "this scene must not read files");
   for (Table& t : table.tables("plans", kMostFiles)) {
     read_plan(t, materials, base, world);
     check(t);
@@ -152,7 +159,7 @@ void read_world_files(Table& table, const Materials& materials, const std::files
     read_mesh(t, materials, base, world);
     check(t);
   }
-  if (table.has("building")) read_building(table.table("building"), materials, world);
+  if (table.has("building")) read_building(table.table("building"), materials, limits, world);
 }
 
 }  // namespace evigrid::scenes

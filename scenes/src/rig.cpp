@@ -8,9 +8,10 @@
 namespace evigrid::scenes {
 namespace {
 
-toml::table robot_document(const std::string& wanted, const std::filesystem::path& base,
+toml::table robot_document(const std::string& wanted, const std::filesystem::path& base, const SceneLimits& limits,
                            const std::function<void(const std::string&)>& complain) {
   if (wanted.ends_with(".toml")) {
+    if (!limits.files) complain("this scene must not read files");
     const std::filesystem::path path = base / wanted;
     std::error_code error;
     if (!std::filesystem::exists(path, error)) complain("there is no such file: " + path.string());
@@ -48,30 +49,32 @@ toml::table take_robot(toml::table&& document, const std::string& file) {
   return std::move(*document.get("robot")->as_table());
 }
 
-toml::table load_robot(const std::string& wanted, const std::filesystem::path& base,
+toml::table load_robot(const std::string& wanted, const std::filesystem::path& base, const SceneLimits& limits,
                        const std::function<void(const std::string&)>& complain) {
-  toml::table document = robot_document(wanted, base, complain);
+  toml::table document = robot_document(wanted, base, limits, complain);
   const std::string file = document.source().path ? *document.source().path : wanted;
   return take_robot(std::move(document), file);
 }
 
 }  // namespace
 
-void merge_robot(toml::table& document, const std::string& file, const std::filesystem::path& base) {
+void merge_robot(toml::table& document, const std::string& file, const std::filesystem::path& base,
+                 const SceneLimits& limits) {
   toml::table* robot = document["robot"].as_table();
   if (!robot || !robot->contains("use")) return;  // no table at all: whoever reads it complains
   Table reader(*robot, file, "robot");
   const std::string wanted = reader.text("use");
-  toml::table under = load_robot(wanted, base, [&](const std::string& message) { reader.fail("use", message); });
+  toml::table under =
+      load_robot(wanted, base, limits, [&](const std::string& message) { reader.fail("use", message); });
   robot->erase("use");
   put_under(*robot, std::move(under));
 }
 
-void use_robot(Scene& scene, const std::string& name_or_file) {
+void use_robot(Scene& scene, const std::string& name_or_file, const Vocabulary& words) {
   const toml::table robot =
-      load_robot(name_or_file, {}, [](const std::string& message) { throw SceneError("robot: " + message); });
+      load_robot(name_or_file, {}, {}, [](const std::string& message) { throw SceneError("robot: " + message); });
   const std::string file = robot.source().path ? *robot.source().path : name_or_file;
-  read_robot(Table(robot, file, "robot"), scene);
+  read_robot(Table(robot, file, "robot"), scene, words);
 }
 
 }  // namespace evigrid::scenes

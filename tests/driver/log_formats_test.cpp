@@ -128,6 +128,14 @@ TEST(Lego, BrokenCountersAndTimesAreCounted) {
   EXPECT_NEAR(log.scans[0].T_map_robot.x_m, 5 * 0.349e-3, 1e-12);
 }
 
+TEST(Lego, TimesWhoseDifferenceNeedsMoreThan64BitsAreNone) {
+  const auto motors = [](const std::string& t) { return with_field(lego_motors(0, 0, 0), ' ', 1, t); };
+  const Log log = read_text(motors("-4.4e12") + motors("4.4e12") + motors("8.9e12") + lego_scan(1000, 0) + "\n");
+  EXPECT_EQ(log.malformed.at("bad number"), 1u);
+  EXPECT_EQ(log.scans.size(), 1u);
+  EXPECT_EQ(summarise(log)["time"]["span_s"], 0.0);
+}
+
 TEST(Lego, AFolderOrAnyOfItsFilesIsTheLog) {
   const TempDir dir;
   const std::string scan = dir.write("robot4_scan.txt", lego_scan(1000, 0) + "\n");

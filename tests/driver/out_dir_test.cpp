@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nothing half-written stays behind, whatever fails.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <thread>
 
 #include "error.hpp"
 #include "out/out_dir.hpp"
@@ -106,6 +110,37 @@ TEST(OutDir, ASingleFile) {
   EXPECT_EQ(slurp(dir.at("f")), "abc");
   EXPECT_THROW(require_writable(dir.at("no/f")), InputError);
   EXPECT_THROW(write_file(dir.at("no/f"), "x"), InputError);
+}
+
+TEST(WriteFile, FollowsALinkAndKeepsIt) {
+  const TempDir dir;
+  dir.write("real.csv", "old");
+  std::filesystem::create_symlink("real.csv", dir.at("link.csv"));
+  write_file(dir.at("link.csv"), std::string_view("new"));
+  EXPECT_TRUE(std::filesystem::is_symlink(dir.at("link.csv")));
+  EXPECT_EQ(slurp(dir.at("real.csv")), "new");
+}
+
+TEST(WriteFile, WritesIntoAPipeAndLeavesIt) {
+  const TempDir dir;
+  ASSERT_EQ(::mkfifo(dir.at("pipe").c_str(), 0600), 0);
+  std::string got;
+  std::thread reader([&] { got = slurp(dir.at("pipe")); });
+  require_writable(dir.at("pipe"));
+  write_file(dir.at("pipe"), std::string_view("through"));
+  reader.join();
+  EXPECT_EQ(got, "through");
+  EXPECT_TRUE(std::filesystem::is_fifo(dir.at("pipe")));
+}
+
+TEST(OutDir, ADeviceBesideTheFolderIsWrittenToAndStays) {
+  const TempDir dir;
+  OutDir out(dir.at("out"));
+  out.write("a", "a");
+  out.write_outside("/dev/null", "b");
+  out.commit();
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_EQ(slurp(dir.at("out/a")), "a");
 }
 
 }  // namespace

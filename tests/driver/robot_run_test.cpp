@@ -212,6 +212,37 @@ TEST(WidestPlace, InsideRatherThanOutsideAndNeverInAWall) {
   EXPECT_FALSE(widest_place(plan, 0.1));
 }
 
+TEST(Run, NamesOfRulesAndModelsAreRefusedWithTheirLine) {
+  const TempDir dir;
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& message) {
+    std::string text = kMixed;
+    text.replace(text.find(from), from.size(), to);
+    const Ran ran = evigrid({"run", dir.write("s.toml", text), "-o", dir.at("out")});
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_TRUE(contains(ran.err, message)) << ran.err;
+  };
+  refused("rule = \"pcr5\"", "rule = \"foo\"", "s.toml:3: map.rule: 'foo' is unknown");
+  refused("model = \"li2014\"", "model = \"beam\"", "s.toml:9: robot.sensor.model: 'beam' is unknown");
+}
+
+TEST(Run, AWayThroughAWallIsWarnedOf) {
+  const TempDir dir;
+  std::string text = kMixed;
+  text.replace(text.find("[5, 1]"), 6, "[8, 1]");
+  const Ran ran = evigrid({"run", dir.write("s.toml", text), "-o", dir.at("out"), "--json", "-"});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_TRUE(contains(ran.err, "through walls")) << ran.err;
+  EXPECT_EQ(Json::parse(ran.out)["warnings"].size(), 1u);
+  EXPECT_EQ(report({"run", dir.write("t.toml", kMixed), "-o", dir.at("out"), "--json", "-"})["warnings"].size(), 0u);
+}
+
+TEST(Run, AStartOutsideOfTheWorldIsRefusedAtOnce) {
+  const TempDir dir;
+  const Ran ran = evigrid({"run", "--world", "building", "--start", "1000,1000", "-o", dir.at("out")});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_TRUE(contains(ran.err, "--start") && contains(ran.err, "outside")) << ran.err;
+}
+
 TEST(WidestPlace, ASpeckInsideIsNoBuilding) {
   const auto outside = widest_place(plan_with_room(60, 40, 50, 10, 56, 16), 0.2);
   ASSERT_TRUE(outside);

@@ -66,6 +66,7 @@ TEST(Score, CountsByHand) {
   EXPECT_DOUBLE_EQ(s.near.recall, 1);
   EXPECT_DOUBLE_EQ(s.near.mistaken_rate, 0);
   EXPECT_DOUBLE_EQ(s.known_share, 3.0 / 4);
+  EXPECT_DOUBLE_EQ(s.out_of_sight_share, 0);
   const auto at = [&](TruthCell t, Decision d) {
     return s.confusion[static_cast<std::size_t>(t)][static_cast<std::size_t>(d)];
   };
@@ -106,6 +107,9 @@ TEST(Score, MapSmallerOrLargerThanTheTruth) {
   // A cell called occupied far to the right of the truth: its margin is free there.
   const Score far = score(layers({10, 0, 1, 1}, {kOccupied}), truth());
   EXPECT_DOUBLE_EQ(far.strict.precision, 0);
+  const Score behind = score(layers({0, 0, 2, 1}, {kOccupied, kOccupied}), truth());  // one solid, one surface
+  EXPECT_DOUBLE_EQ(behind.strict.precision, 1);
+  EXPECT_DOUBLE_EQ(behind.out_of_sight_share, 0.5);
   EXPECT_DOUBLE_EQ(far.strict.mistaken_rate, 1);
 }
 

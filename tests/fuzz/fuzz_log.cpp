@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first byte names the format; a line "====" starts the next file of a log that has several.
+// The first byte names the format, from 128 on it is found out; a line "====" starts the next file of a log that has
+// several. What can be read is also summed up.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -7,12 +8,13 @@
 
 #include "error.hpp"
 #include "log/readers.hpp"
+#include "log/summary.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace evigrid::driver;
   if (size == 0) return 0;
   const std::vector<std::string>& formats = log_formats();
-  const std::string& format = formats[1 + data[0] % (formats.size() - 1)];  // 0 is auto
+  const std::string& format = formats[data[0] >= 128 ? 0 : 1 + data[0] % (formats.size() - 1)];  // 0 is auto
   std::string_view rest(reinterpret_cast<const char*>(data) + 1, size - 1);
   constexpr std::string_view kNext = "====\n";
   std::vector<std::string_view> files;
@@ -28,6 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const LogScan& s : log.scans) {
       if (s.first + s.count > log.readings.size()) __builtin_trap();
     }
+    (void)summary_text(summarise(log));
   } catch (const InputError&) {  // the only way to refuse a log
   }
   return 0;

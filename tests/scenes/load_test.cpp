@@ -198,7 +198,8 @@ TEST(Load, NoSonar) {
   std::string text = with("[robot.ring]\ncount = 4\nradius_m = 0.2\nfirst_bearing_deg = 45\n", "");
   const std::size_t at = text.find("[[robot.sonar]]");
   text.erase(at, text.find("[trajectory]") - at);
-  EXPECT_EQ(complaint(text), "room.toml:21: robot: has no sensor: neither [robot.ring] nor [[robot.sonar]] nor [[robot.laser]]");
+  EXPECT_EQ(complaint(text),
+            "room.toml:21: robot: has no sensor: neither [robot.ring] nor [[robot.sonar]] nor [[robot.laser]]");
 }
 
 TEST(Load, BrokenToml) {
@@ -208,6 +209,64 @@ TEST(Load, BrokenToml) {
   std::string garbage;
   for (int i = 0; i < 4096; ++i) garbage.push_back(static_cast<char>(i * 2654435761u >> 13));
   EXPECT_EQ(complaint(garbage).substr(0, 10), "room.toml:");
+}
+
+TEST(Load, KeysOfManyPartsAreRefusedBeforeTheyExhaustTheStack) {
+  const auto dotted = [](std::size_t parts) {
+    std::string key = "a";
+    for (std::size_t i = 1; i < parts; ++i) key += ".a";
+    return key;
+  };
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      (void)parse_scene(text, "s.toml");
+    } catch (const SceneError& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  const std::string deep = dotted(4'000'000), refused = "s.toml:2: toml: a key has more than 64 parts";
+  EXPECT_EQ(complaint("\n" + deep + " = 1\n"), refused);
+  EXPECT_EQ(complaint("\n[" + deep + "]\n"), refused);
+  EXPECT_EQ(complaint("\nx = { " + deep + " = 1 }\n"), refused);
+  EXPECT_EQ(complaint("\nx = [\"\"\"q\"\"\"\"\", { " + deep + " = 1 }]\n"), refused);  // quotes that end a string
+  EXPECT_EQ(complaint("\nx = ['\\', { " + deep + " = 1 }]\n"), refused);               // no escape in a literal string
+  // What is no key may have any number of dots.
+  const std::string dots(1000, '.');
+  const std::string strings = "name = \"" + dots + "\\\"" + dots + "\" # " + dots + "\n";
+  EXPECT_EQ(complaint(strings + kGood.substr(kGood.find('\n') + 1)), "accepted");
+  EXPECT_EQ(complaint("x = '''\n" + dots + "\n'''\n"), "s.toml:1: map: is missing");
+  EXPECT_EQ(complaint(dotted(64) + " = 1\n").find("toml"), 2u);  // only in the file's name: read, then refused
+}
+
+TEST(Load, LimitsForScenesOfStrangers) {
+  const auto complaint = [](const std::string& world, const std::string& run,
+                            const SceneLimits& limits) -> std::string {
+    const std::string text = "[map]\ncell_m = 0.1\nrule = \"pcr5\"\n" + world +
+                             "[robot]\nuse = \"ring8\"\n[trajectory]\n" + run + "seed = 1\n";
+    try {
+      (void)parse_scene(text, "s.toml", {}, limits);
+    } catch (const SceneError& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  const std::string still = "waypoints = [[1, 1]]\n", tour = "kind = \"tour\"\n";
+  const std::string room = "[[world.polygons]]\nvertices = [[0, 0], [6, 0], [6, 5], [0, 5]]\n";
+  EXPECT_EQ(complaint(room, tour, {.most_tour_cells = 5000}), "accepted");  // 64 × 54 cells
+  EXPECT_EQ(complaint(room, tour, {.most_tour_cells = 3000}).substr(0, 60),
+            "s.toml:9: trajectory.kind: the world has 63 x 53 cells of 0.1");
+  const std::string hall = "[world.building]\nwidth_m = 40\ndepth_m = 20\nroom_m = 4\n";  // 50 rooms
+  EXPECT_EQ(complaint(hall, still, {.most_pieces = 500}), "accepted");
+  EXPECT_EQ(complaint(hall, still, {.most_pieces = 400}),
+            "s.toml:7: world.building.room_m: the building would have more than 40 rooms");
+  EXPECT_EQ(complaint(hall + "furniture_per_room = 100\n", still, {.most_pieces = 1000}),
+            "s.toml:8: world.building.furniture_per_room: the building would have more than 1000 pieces of furniture");
+  EXPECT_EQ(complaint("[[world.plans]]\nfile = \"no.map\"\n", still, {.files = false}),
+            "s.toml:4: world.plans: this scene must not read files");
+  EXPECT_EQ(complaint("[[world.meshes]]\nfile = \"no.ply\"\n", still, {.files = false}),
+            "s.toml:4: world.meshes: this scene must not read files");
+  EXPECT_EQ(complaint("[world]\n", still + "#", {.files = false}), "accepted");  // an embedded robot is no file
 }
 
 TEST(Load, Files) {

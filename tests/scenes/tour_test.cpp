@@ -221,6 +221,27 @@ TEST(Tour, AnOpenWorldHasToursToo) {
   EXPECT_EQ(make_tour({}, {.start = {3, 3}}).front().x_m, 3);
 }
 
+TEST(Tour, RingsOfAllSizesAreKeptAwayFrom) {
+  std::mt19937_64 random(11);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  for (int round = 0; round < 8; ++round) {
+    World world;
+    world.circles.push_back({{uniform(-1, 1), uniform(-1, 1)}, 12, {}});  // all lies within it
+    for (int i = 0; i < 6; ++i) world.circles.push_back({{uniform(-8, 8), uniform(-8, 8)}, uniform(0.01, 5), {}});
+    const Point start = find_start(world, 0.3);
+    EXPECT_GE(least_clearance(world, make_tour(world, {.start = start})), 0.27) << round;
+  }
+}
+
+TEST(Tour, TheSearchGridIsBounded) {
+  const World world = room_with_a_chamber();
+  EXPECT_THROW((void)make_tour(world, {.start = {1, 1}, .most_cells = 4000}), std::length_error);
+  EXPECT_THROW((void)find_start(world, 0.3, 0.1, 4000), std::length_error);
+  EXPECT_NO_THROW((void)find_start(world, 0.3, 0.1, 8000));
+}
+
 TEST(DistanceTransform, IsExact) {
   std::mt19937_64 random(3);
   for (int round = 0; round < 60; ++round) {

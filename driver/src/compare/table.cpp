@@ -41,6 +41,7 @@ const std::vector<Column>& columns() {
       {"recall_1cell", agreement<&Agreement::recall, &Score::near>},
       {"mistaken_rate_1cell", agreement<&Agreement::mistaken_rate, &Score::near>},
       {"known_share", scored<&Score::known_share>},
+      {"out_of_sight_share", scored<&Score::out_of_sight_share>},
       {"log_loss_betp", scored<&Score::log_loss_betp>},
       {"log_loss_plp", scored<&Score::log_loss_plp>},
       {"brier_betp", scored<&Score::brier_betp>},

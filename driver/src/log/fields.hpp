@@ -33,7 +33,7 @@ double finite_number(const Tokens& tokens, std::size_t at);
 /// Throws "too short" or "wrong count" unless there are exactly `wanted` fields.
 void expect_fields(std::size_t got, std::size_t wanted);
 
-/// Seconds (of any epoch, finite, below 9e9) as nanoseconds.
+/// Seconds (of any epoch, finite, below 4.5e9) as nanoseconds.
 std::int64_t stamp_ns(double seconds);
 
 /// A range in metres for the log; absurd ones become NaN and are counted.

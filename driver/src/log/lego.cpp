@@ -30,7 +30,7 @@ constexpr std::size_t kBeams = 660, kScanFields = 3 + kBeams, kMotorFields = 14,
 constexpr double kStep_rad = 0.006135923, kMm = 0.001, kTick_m = 0.349e-3, kTrack_m = 0.173, kScannerAhead_m = 0.030;
 constexpr double kErrorCodesBelow_mm = 20;
 constexpr double kMostStep_m = 1;  // between two motor records, a fifth of a second apart: more is a broken counter
-constexpr double kMostMilliseconds = 9e12;
+constexpr double kMostMilliseconds = 4.5e12;  // of two the difference in nanoseconds fits 63 bits
 constexpr std::int64_t kMostGap_ns = 2'000'000'000;  // a scan farther than that from every motor record has no pose
 
 struct Recording {

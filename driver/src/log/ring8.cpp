@@ -25,7 +25,7 @@ constexpr double kBearing_rad[kSonars] = {-90 * kDeg, -37.5 * kDeg, -22.5 * kDeg
                                           7.5 * kDeg, 22.5 * kDeg,  37.5 * kDeg,  90 * kDeg};
 constexpr double kNoEcho_mm = 5110;
 
-constexpr double kMostMilliseconds = 9e12;
+constexpr double kMostMilliseconds = 4.5e12;  // of two the difference in nanoseconds fits 63 bits
 constexpr const char* kPosesFile = "poses.txt";
 constexpr const char* kMeasurementsFile = "measurement.txt";
 constexpr std::size_t kPoseFields = 4, kMeasurementFields = 1 + kSonars;

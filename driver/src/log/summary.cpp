@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kToDeg = 180 / std::numbers::pi;
 
 double rounded(double value, double to) { return std::round(value / to) * to; }
-double deg(double rad) { return rounded(rad * kToDeg, 1e-6); }
+double deg(double rad) { return rounded(rad * kToDeg, 1e-6) + 0.0; }
 
 struct Ranges {
   std::vector<float> good;  ///< in range

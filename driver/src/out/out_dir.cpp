@@ -22,6 +22,23 @@ fs::path temporary_beside(const fs::path& target) {
   return target.parent_path() / fmt::format(".{}.tmp-{}", target.filename().string(), ::getpid());
 }
 
+/// Where bytes for `path` really go: a link is followed, so that what it points to is replaced and not the link.
+fs::path followed(fs::path path) {
+  std::error_code error;
+  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links) {
+    const fs::path to = fs::read_symlink(path, error);
+    path = to.is_absolute() ? to : path.parent_path() / to;
+  }
+  return path.lexically_normal();
+}
+
+/// A pipe, a terminal, /dev/null: written to, never replaced.
+bool is_special(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
 [[noreturn]] void fail(const fs::path& path, const std::string& why) {
   throw InputError(fmt::format("{}: cannot be written: {}", path.string(), why));
 }
@@ -43,7 +60,7 @@ void write_all(const fs::path& path, const fs::path& named, std::span<const std:
   }
   if (!good) {
     std::error_code ignored;
-    fs::remove(path, ignored);
+    if (!is_special(path)) fs::remove(path, ignored);
     fail(named, std::strerror(error));
   }
 }
@@ -83,9 +100,11 @@ OutDir::~OutDir() {
   for (auto at = made_.rbegin(); at != made_.rend(); ++at) fs::remove(*at, ignored);  // only when empty
 }
 
-void OutDir::stage(const fs::path& target, std::span<const std::byte> head, std::span<const std::byte> body) {
+void OutDir::stage(const fs::path& named, std::span<const std::byte> head, std::span<const std::byte> body) {
   std::error_code error;
-  if (fs::is_directory(target, error)) fail(target, "a folder has that name");
+  const fs::path target = followed(named);
+  if (fs::is_directory(target, error)) fail(named, "a folder has that name");
+  if (is_special(target)) fail(named, "it is a device or a pipe");
   const fs::path temporary = temporary_beside(target);
   write_all(temporary, target, head, body);
   staged_.emplace_back(temporary, target);
@@ -107,7 +126,12 @@ void OutDir::write_by(const std::string& name, const std::function<void(std::ost
 }
 
 void OutDir::write_outside(const std::string& path, std::string_view bytes) {
-  stage(fs::absolute(path), bytes_of(bytes), {});
+  const fs::path target = followed(fs::absolute(path));
+  if (is_special(target)) {  // nothing to be renamed: written when all else is in place
+    special_.emplace_back(target, std::string(bytes));
+  } else {
+    stage(target, bytes_of(bytes), {});
+  }
 }
 
 void OutDir::commit() {
@@ -122,12 +146,15 @@ void OutDir::commit() {
   }
   staged_.clear();
   made_.clear();
+  for (const auto& [target, bytes] : special_) write_all(target, target, bytes_of(bytes), {});
+  special_.clear();
 }
 
 void write_file(const std::string& path, std::string_view bytes) { write_file(path, bytes_of(bytes)); }
 
 void write_file(const std::string& path, std::span<const std::byte> bytes) {
-  const fs::path target = fs::absolute(path);
+  const fs::path target = followed(fs::absolute(path));
+  if (is_special(target)) return write_all(target, path, bytes, {});
   const fs::path temporary = temporary_beside(target);
   write_all(temporary, path, bytes, {});
   std::error_code error;
@@ -140,9 +167,10 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
 }
 
 void require_writable(const std::string& path) {
-  const fs::path target = fs::absolute(path);
+  const fs::path target = followed(fs::absolute(path));
   std::error_code error;
   if (fs::is_directory(target, error)) fail(path, "a folder has that name");
+  if (is_special(target)) return;
   const fs::path probe = temporary_beside(target);
   write_all(probe, path, {}, {});
   fs::remove(probe, error);

@@ -37,10 +37,11 @@ class OutDir {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
-  void stage(const std::filesystem::path& target, std::span<const std::byte> head, std::span<const std::byte> body);
+  void stage(const std::filesystem::path& named, std::span<const std::byte> head, std::span<const std::byte> body);
   std::filesystem::path path_;
   std::vector<std::filesystem::path> made_;                                      // folders, outermost first
   std::vector<std::pair<std::filesystem::path, std::filesystem::path>> staged_;  // temporary, target
+  std::vector<std::pair<std::filesystem::path, std::string>> special_;  // devices and pipes, and what they get
 };
 
 /// One file, written beside and renamed; throws InputError. For commands whose only output is a file.

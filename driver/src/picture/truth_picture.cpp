@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six colours: found and missed walls, walls seen where there are none, and empty where it is, is not, or is not known.
+// Colours: found and missed walls, walls seen where there are none, and empty where it is, is not, or is not known.
 #include "picture/truth_picture.hpp"
 
 #include <fmt/format.h>
@@ -13,14 +13,15 @@ namespace evigrid::driver {
 namespace {
 
 constexpr Rgb kFound{14, 22, 56}, kMissed{213, 94, 0}, kFalseWall{204, 121, 167}, kRightlyEmpty{250, 250, 247},
-    kFalseEmpty{86, 180, 233}, kUnknown{190, 190, 190}, kSolid{222, 222, 222};
+    kFalseEmpty{86, 180, 233}, kUnknown{190, 190, 190}, kSolid{222, 222, 222},
+    kBehind{112, 122, 160};
 constexpr int kSide_px = 800, kLeastWidth_px = 860;
 
 /// `visible`: a surface that borders free space; the others no sensor can see.
 Rgb colour_of(scenes::TruthCell truth, Decision said, bool visible) {
   if (truth == scenes::TruthCell::free)
     return said == Decision::occupied ? kFalseWall : said == Decision::empty ? kRightlyEmpty : kUnknown;
-  if (said == Decision::occupied) return kFound;
+  if (said == Decision::occupied) return truth == scenes::TruthCell::surface ? kFound : kBehind;
   if (said == Decision::empty) return kFalseEmpty;
   return visible ? kMissed : kSolid;
 }
@@ -53,7 +54,7 @@ Canvas draw_truth(const Layers& map, const scenes::TruthGrid& truth, const std::
   }
   x = kMargin_px, y += kLine_px;
   for (const auto& [colour, label] :
-       {std::pair{kRightlyEmpty, "empty"}, {kUnknown, "free, not known"}, {kSolid, "out of sight"}}) {
+       {std::pair{kRightlyEmpty, "empty"}, {kUnknown, "free, not known"}, {kBehind, "wall out of sight"}, {kSolid, "out of sight"}}) {
     x = draw_swatch(canvas, x, y, colour, label);
   }
   draw_scale_bar(canvas, canvas.width() - kMargin_px, y, frame.scale / map.cell_m);

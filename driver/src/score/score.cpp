@@ -74,6 +74,9 @@ void count_cells(const Overlay& o, Score& score) {
   score.strict = strict.agreement();
   score.near = near.agreement();
   score.known_share = share(known, free);
+  const auto occupied = static_cast<std::size_t>(Decision::occupied);
+  score.out_of_sight_share =
+      share(score.confusion[static_cast<std::size_t>(TruthCell::solid)][occupied], strict.called);
 }
 
 struct Belief {
@@ -187,6 +190,7 @@ nlohmann::ordered_json to_json(const Score& s) {
   out["strict"] = agreement(s.strict);
   out["within_one_cell"] = agreement(s.near);
   out["known_share_of_free"] = s.known_share;
+  out["out_of_sight_share_of_occupied"] = s.out_of_sight_share;
   out["log_loss_betp"] = s.log_loss_betp;
   out["log_loss_plp"] = s.log_loss_plp;
   out["brier_betp"] = s.brier_betp;

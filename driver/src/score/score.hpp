@@ -37,7 +37,8 @@ struct Agreement {
 struct Score {
   std::array<std::array<std::uint64_t, 3>, 3> confusion{};  ///< [TruthCell][Decision], in cells
   Agreement strict, near;
-  double known_share = 0;  ///< of the free cells: share decided
+  double known_share = 0;         ///< of the free cells: share decided
+  double out_of_sight_share = 0;  ///< of the cells called occupied: share in solid, which no sensor can have seen
   // Means over the free and the surface cells, also those that the map does not know.
   double log_loss_betp = 0, log_loss_plp = 0;  ///< nats; p is kept within [1e-6, 1 − 1e-6]
   double brier_betp = 0, brier_plp = 0;

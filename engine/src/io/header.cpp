@@ -107,9 +107,10 @@ std::string header_text(const MapFileInfo& info) {
   std::string out;
   const auto line = [&](std::string_view key, const auto& value) { write(out, key, value); };
   each_fact(info, line);
-  std::array<char, 16> hash{};
-  const auto hash_end = std::to_chars(hash.data(), hash.data() + hash.size(), info.hash, 16).ptr;
-  out.append("map_hash=").append(hash.data(), hash_end).push_back('\n');
+  constexpr std::string_view kDigits = "0123456789abcdef";  // all 16 digits, as everywhere else
+  out.append("map_hash=");
+  for (int bits = 60; bits >= 0; bits -= 4) out.push_back(kDigits[(info.hash >> bits) & 15]);
+  out.push_back('\n');
   if (info.last_stamp_ns) line("last_stamp_ns", *info.last_stamp_ns);
   out += "planes=";
   for (std::size_t i = 0; i < info.planes.size(); ++i) out += (i > 0 ? "," : "") + info.planes[i];

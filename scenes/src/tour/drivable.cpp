@@ -6,22 +6,17 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "evigrid/scenes/tour.hpp"
 #include "tour/distance.hpp"
 #include "truth/raster.hpp"
 
 namespace evigrid::scenes {
-namespace {
-
-constexpr std::int64_t kMostCells = 1 << 27;  // about 20 bytes each while searching
-
-}  // namespace
-
 DriveGrid drive_grid(const Outline& outline, const Nearby& nearby, double clearance_m, double cell_m,
-                     std::span<const raycast::Point> include) {
+                     std::span<const raycast::Point> include, std::int64_t most_cells) {
   if (!(clearance_m > 0) || !std::isfinite(clearance_m)) throw std::invalid_argument("clearance_m is not positive");
   if (!(cell_m > 0) || !std::isfinite(cell_m)) throw std::invalid_argument("cell_m is not positive");
   cell_m = std::min(cell_m, clearance_m);
-  const TruthGrid surfaces = raster(outline, cell_m, include, kMostCells);
+  const TruthGrid surfaces = raster(outline, cell_m, include, std::min(most_cells, kMostTourCells));
   DriveGrid grid;
   grid.x = surfaces.x;
   grid.y = surfaces.y;

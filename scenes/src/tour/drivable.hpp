@@ -36,7 +36,7 @@ struct DriveGrid {
 /// Cells of the rim are never drivable. cell_m larger than clearance_m is made as small. Throws std::length_error and
 /// std::invalid_argument.
 [[nodiscard]] DriveGrid drive_grid(const Outline& outline, const Nearby& nearby, double clearance_m, double cell_m,
-                                   std::span<const raycast::Point> include);
+                                   std::span<const raycast::Point> include, std::int64_t most_cells);
 
 struct Step {
   std::int64_t offset;

@@ -88,7 +88,8 @@ Nearby::Nearby(const Outline& outline, double bin_m) : outline_(&outline), bin_m
 template <class Visit>
 void Nearby::each_bin_of(const Ring& r, double slack_m, Visit visit) const {
   const auto column = [&](double x_m) {
-    return static_cast<std::int64_t>(std::clamp(std::floor((x_m - x_m_) / bin_m_), 0.0, static_cast<double>(width_ - 1)));
+    return static_cast<std::int64_t>(
+        std::clamp(std::floor((x_m - x_m_) / bin_m_), 0.0, static_cast<double>(width_ - 1)));
   };
   const auto row = [&](double y_m) {
     return static_cast<std::int64_t>(

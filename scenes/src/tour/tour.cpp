@@ -103,7 +103,7 @@ std::vector<Point> make_tour(const raycast::World& world, const TourSpec& spec) 
   if (!(spec.spacing_m > 0) || !std::isfinite(spec.spacing_m)) throw std::invalid_argument("spacing_m is not positive");
   const Outline outline = take_apart(world);
   const Nearby nearby(outline, std::max(kBin_m, spec.clearance_m));
-  const DriveGrid grid = drive_grid(outline, nearby, spec.clearance_m, spec.cell_m, {&spec.start, 1});
+  const DriveGrid grid = drive_grid(outline, nearby, spec.clearance_m, spec.cell_m, {&spec.start, 1}, spec.most_cells);
   if (!nearby.keeps(spec.start, spec.start, grid.leg_clearance_m)) refuse_start(grid, outline, spec);
   const std::optional<CellIndex> start = cell_of_start(grid, nearby, spec.start);
   std::vector<Point> waypoints{spec.start};
@@ -149,10 +149,10 @@ std::vector<Point> make_tour(const raycast::World& world, const TourSpec& spec) 
   return waypoints;
 }
 
-Point find_start(const raycast::World& world, double clearance_m, double cell_m) {
+Point find_start(const raycast::World& world, double clearance_m, double cell_m, std::int64_t most_cells) {
   const Outline outline = take_apart(world);
   const Nearby nearby(outline, std::max(kBin_m, clearance_m));
-  const DriveGrid grid = drive_grid(outline, nearby, clearance_m, cell_m, {});
+  const DriveGrid grid = drive_grid(outline, nearby, clearance_m, cell_m, {}, most_cells);
   const std::vector<std::uint8_t> region = main_region(grid);
   std::optional<CellIndex> best;
   for (std::size_t i = 0; i < region.size(); ++i)

@@ -38,7 +38,8 @@ struct MeshPlacement {
 /// Straight walls where the mesh meets the plane. Pieces that continue one another in a straight line are joined, and a
 /// piece that comes twice is kept once. A vertex at the very height counts as above it, so that the outline of a closed
 /// mesh is closed and faces within the plane give nothing. Tolerance: 2^-22 of the mesh's size, the rounding of a file
-/// in float. Throws std::invalid_argument for a placement or an index that cannot be.
+/// in float. Throws std::invalid_argument for a placement or an index that cannot be and
+/// for a mesh that reaches farther than 1e9 m.
 [[nodiscard]] std::vector<raycast::Wall> slice(const Mesh& mesh, const MeshPlacement& placement);
 
 }  // namespace evigrid::scenes

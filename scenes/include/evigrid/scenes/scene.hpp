@@ -13,6 +13,7 @@
 
 #include "evigrid/raycast/noise.hpp"
 #include "evigrid/raycast/world.hpp"
+#include "evigrid/scenes/tour.hpp"
 
 namespace evigrid::scenes {
 
@@ -109,15 +110,31 @@ class SceneError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What reading may cost, beyond the text itself: a few words can ask for a large building and a tour through it.
+/// Whoever reads scenes of strangers lowers these. What exceeds one is refused before it is made.
+struct SceneLimits {
+  std::int64_t most_tour_cells = kMostTourCells;  ///< of a tour's search grid; about 20 bytes and 1 µs each
+  std::int64_t most_pieces = 1'000'000;           ///< of furniture in a building; it has a tenth as many rooms
+  bool files = true;                              ///< plans, meshes and robots may be read from files
+};
+
+/// The names of rules and models that exist, which only the user of the library knows: others are refused with their
+/// line. An empty list lets every name pass.
+struct Vocabulary {
+  std::vector<std::string> rules, sonar_models, laser_models;
+};
+
 /// Throws SceneError.
-[[nodiscard]] Scene load_scene(const std::filesystem::path& path);
+[[nodiscard]] Scene load_scene(const std::filesystem::path& path, const Vocabulary& words = {},
+                               const SceneLimits& limits = {});
 
 /// Same for text; `name` stands for the file name in messages. Throws SceneError.
-[[nodiscard]] Scene parse_scene(std::string_view text, std::string_view name);
+[[nodiscard]] Scene parse_scene(std::string_view text, std::string_view name, const Vocabulary& words = {},
+                                const SceneLimits& limits = {});
 
 /// Replaces the scene's robot, as [robot] use = "…" does: an embedded robot by name, or a file (its name ends in
 /// .toml). The trajectory stays. Throws SceneError.
-void use_robot(Scene& scene, const std::string& name_or_file);
+void use_robot(Scene& scene, const std::string& name_or_file, const Vocabulary& words = {});
 
 /// TOML text that is part of the library.
 struct Embedded {
