@@ -13,6 +13,8 @@
 
 namespace evigrid::scenes {
 
+/// Of a coordinate, in the units of the file: products of differences stay finite, and what is cut sorts by them.
+inline constexpr double kFarthest = 1e12;
 inline constexpr std::size_t kMostCorners = 2048;  // of one face: cutting takes time with the square
 
 class MeshCollector {

@@ -67,6 +67,7 @@ double coordinate(Reading& r, const char* axis) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), read);
   if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(read))
     r.mesh.fail(r.lines.number(), "v", std::string(axis) + " is not a finite number");
+  if (std::abs(read) > kFarthest) r.mesh.fail(r.lines.number(), "v", std::string(axis) + " is farther than 1e12");
   return read;
 }
 

@@ -159,6 +159,7 @@ void read_vertices(const PlyElement& e, Data& data, MeshCollector& mesh) {
       double& value = v[static_cast<std::size_t>(axis - axis_of.begin())];
       value = data.number(e.properties[i].type, e.properties[i].name);
       if (!std::isfinite(value)) data.fail(e.properties[i].name, "is not finite");
+      if (std::abs(value) > kFarthest) data.fail(e.properties[i].name, "is farther than 1e12");
     }
     mesh.vertices().push_back(v);
   }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "evigrid/scenes/mesh.hpp"
+#include "mesh/collect.hpp"
 #include "mesh/join.hpp"
 
 namespace evigrid::scenes {
@@ -16,8 +17,6 @@ namespace {
 
 using Vertex = std::array<double, 3>;
 using raycast::Point;
-
-constexpr double kFarthest_m = 1e9;  // products of differences stay finite: what follows sorts by them
 
 void require_finite(double value, const char* field) {
   if (!std::isfinite(value)) throw std::invalid_argument(std::string(field) + " is not finite");
@@ -50,7 +49,7 @@ std::vector<raycast::Wall> slice(const Mesh& mesh, const MeshPlacement& placemen
     if (placement.y_up) v = {v[0], -v[2], v[1]};  // a quarter turn about x
     for (std::size_t k = 0; k < 3; ++k) {
       v[k] *= scale;
-      if (!(std::abs(v[k]) <= kFarthest_m)) throw std::invalid_argument("the mesh reaches farther than 1e9 m");
+      if (!(std::abs(v[k]) <= kFarthest)) throw std::invalid_argument("the mesh reaches farther than 1e12 m");
       low[k] = std::min(low[k], v[k]);
       high[k] = std::max(high[k], v[k]);
     }

@@ -39,7 +39,7 @@ struct MeshPlacement {
 /// piece that comes twice is kept once. A vertex at the very height counts as above it, so that the outline of a closed
 /// mesh is closed and faces within the plane give nothing. Tolerance: 2^-22 of the mesh's size, the rounding of a file
 /// in float. Throws std::invalid_argument for a placement or an index that cannot be and
-/// for a mesh that reaches farther than 1e9 m.
+/// for a mesh that reaches farther than 1e12 m.
 [[nodiscard]] std::vector<raycast::Wall> slice(const Mesh& mesh, const MeshPlacement& placement);
 
 }  // namespace evigrid::scenes
