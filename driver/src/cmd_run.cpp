@@ -72,7 +72,7 @@ void add_run(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "simulate the robot of a scene and map its readings");
   add_world_options(*command, args->input);
   add_mapping_options(*command, args->mapping);
-  command->get_option("--rule")->description("combination rule: " + rule_names() + " (default: the scene's, or pcr5)");
+  command->get_option("--rule")->description("combination rule: " + map_rule_names() + " (default: the scene's, or pcr5)");
   command->get_option("--cell")->description(
       "side of a cell, m (default: the scene's; in a --world 0.05 with lasers, 0.1 without)");
   command->get_option("--model")->description("sensor model of every sonar (default: each sonar's own)");

@@ -26,11 +26,28 @@ constexpr int kMostThreads = 4096;
 }  // namespace
 
 std::string rule_names() { return joined(all_rules()); }
+std::string map_rule_names() { return joined(map_rules()); }
+std::string different_map_rule_names() {
+  std::vector<Rule> out;
+  for (const Rule rule : map_rules()) {
+    if (same_as(rule) == rule) out.push_back(rule);
+  }
+  return joined(std::span<const Rule>(out));
+}
 std::string model_names() { return joined(all_models()); }
 
 Rule parse_rule(const std::string& text) {
   if (const auto rule = rule_from_name(text)) return *rule;
   throw InputError(fmt::format("--rule: '{}' is unknown or not built yet; known: {}", text, rule_names()));
+}
+
+Rule parse_map_rule(const std::string& text) {
+  const Rule rule = parse_rule(text);
+  if (const auto why = why_not_in_maps(rule); !why.empty()) {
+    throw InputError(fmt::format("--rule: {} cannot be the rule of a map: {}; use it with combine. For maps: {}", text,
+                                 why, map_rule_names()));
+  }
+  return rule;
 }
 
 Model parse_model(const std::string& text) {
@@ -85,7 +102,7 @@ std::string describe_outputs() {
 
 void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("-o,--out", o.out_dir, "output folder; made when missing")->required();
-  command.add_option("--rule", o.rule, "combination rule: " + rule_names())->capture_default_str();
+  command.add_option("--rule", o.rule, "combination rule: " + map_rule_names())->capture_default_str();
   command.add_option("--model", o.model,
                      "sensor model: " + model_names() + " (default: beam for lasers, li2014 for sonars)");
   command.add_option("--cell", o.cell_m, "side of a cell, m (default: 0.05 for lasers, 0.1 for sonars)");

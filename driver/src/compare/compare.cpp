@@ -125,7 +125,7 @@ std::vector<std::string> figures(const CompareRow& r) {
 void compare(const CompareOptions& given) {
   const auto start = Clock::now();
   CompareOptions o = given;
-  for (const std::string& rule : o.rules) parse_rule(rule);
+  for (const std::string& rule : o.rules) parse_map_rule(rule);
   std::vector<std::string> sonar_models;
   for (const std::string& model : o.models) {
     if (is_sonar_model(model)) sonar_models.push_back(model);
