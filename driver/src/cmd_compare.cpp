@@ -40,7 +40,8 @@ void add_compare(CLI::App& app) {
   add_mapping_options(*command, o.mapping);
   command->remove_option(command->get_option("--rule"));
   command->remove_option(command->get_option("--model"));
-  command->add_option("--rules", args->rules, "comma-separated, or all (one of those that coincide): " + map_rule_names())
+  command
+      ->add_option("--rules", args->rules, "comma-separated, or all (one of those that coincide): " + map_rule_names())
       ->capture_default_str();
   command->add_option("--models", args->models, "sonar models, comma-separated, or all: " + model_names())
       ->capture_default_str();

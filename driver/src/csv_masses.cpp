@@ -47,7 +47,8 @@ struct Column {
 
 /// 0 when the column is no mass of a source (e1, o12, c3 …).
 int source_of(std::string_view column) {
-  if (column.size() < 2 || column.size() > 7 || std::string_view("eoc").find(column[0]) == std::string_view::npos) return 0;
+  if (column.size() < 2 || column.size() > 7 || std::string_view("eoc").find(column[0]) == std::string_view::npos)
+    return 0;
   int number = 0;
   for (const char digit : column.substr(1)) {
     if (digit < '0' || digit > '9') return 0;
@@ -61,7 +62,8 @@ std::vector<Column> columns_of(const std::vector<std::string_view>& head, const 
   std::vector<Column> out;
   for (std::size_t s = 0; s < rows.sources.size(); ++s) {
     SourceMasses& source = rows.sources[s];
-    for (const auto& [letter, into] : {std::pair('e', &source.e), std::pair('o', &source.o), std::pair('c', &source.c)}) {
+    for (const auto& [letter, into] :
+         {std::pair('e', &source.e), std::pair('o', &source.o), std::pair('c', &source.c)}) {
       Column column{letter + std::to_string(s + 1), into};
       const auto times = std::count(head.begin(), head.end(), column.name);
       if (times == 0 && letter == 'c') continue;
@@ -73,8 +75,7 @@ std::vector<Column> columns_of(const std::vector<std::string_view>& head, const 
   }
   for (const std::string_view column : head) {
     if (const int source = source_of(column); source > static_cast<int>(rows.sources.size())) {
-      fail(name, 1, column,
-           fmt::format("more than {} sources: say --sources {} or more", rows.sources.size(), source));
+      fail(name, 1, column, fmt::format("more than {} sources: say --sources {} or more", rows.sources.size(), source));
     }
   }
   return out;

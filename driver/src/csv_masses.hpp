@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Masses of several sources from a CSV text: columns e1, o1, e2, o2 … and, where a source holds mass on empty ∩ occupied,
-// c1, c2 … by name in the head line, in any order.
+// Masses of several sources from a CSV text: columns e1, o1, e2, o2 … and, where a source holds mass on empty ∩
+// occupied, c1, c2 … by name in the head line, in any order.
 #pragma once
 #include <istream>
 #include <string>

@@ -55,7 +55,7 @@ std::uint64_t through_double(Rule rule, Planes<const float> a, Planes<const floa
   double in[8][kFew], out[5][kFew];
   const float* const from[8] = {a.e, a.o, a.u, a.c, b.e, b.o, b.u, b.c};
   float* const to[5] = {c.e, c.o, c.u, c.c, conflict};
-  const kernels::DoublePlanes planes{in[0], in[1], in[2],  in[3],  in[4],  in[5], in[6],
+  const kernels::DoublePlanes planes{in[0], in[1],  in[2],  in[3],  in[4],  in[5], in[6],
                                      in[7], out[0], out[1], out[2], out[3], out[4]};
   std::fill_n(out[3], kFew, 0.0);
   std::uint64_t totals = 0;

@@ -24,7 +24,7 @@ struct Pcr1 {
 
 /// PCR4 asks whether e and o are zero. Exact operands: a source raised by a power of two answers even where the product
 /// of two masses would be denormal.
-template <class State, class V>
+template <class V>
 EVIGRID_FN Source<V> raised(const PlainSource<V>& m) {
   const V up(std::is_same_v<V, double> ? 1.2676506e30f : 1.0995116e12f);  // 2^100, 2^40
   return {m.x * up, m.y * up, m.v * up, V(0.0f), up};
@@ -37,7 +37,7 @@ struct Pcr4 {
     if constexpr (State::kFloors) {
       return share<State>(c, give_back(source));
     } else {
-      Combined<V> r = share<State>(c, raised<State>(source));
+      Combined<V> r = share<State>(c, raised(source));
       r.k = c.a * source.y + c.b * source.x;  // of operands whose sums are 1 up to rounding, as every rule's
       return r;
     }

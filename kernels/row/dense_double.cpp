@@ -107,21 +107,36 @@ std::uint64_t run(const DoublePlanes& p, std::size_t begin, std::size_t end) {
 
 std::uint64_t dense_double(int rule, const DoublePlanes& p, std::size_t begin, std::size_t end) {
   switch (static_cast<RuleKernel>(rule)) {
-    case kDempster: return run<Closed<scalar::Dempster, dropped>>(p, begin, end);
-    case kPcr2: return run<Closed<scalar::Pcr2, gave_back>>(p, begin, end);
-    case kPcr5: return run<Closed<scalar::Pcr5, gave_back>>(p, begin, end);
-    case kGermPcr2: return run<OpenGermPcr2>(p, begin, end);
-    case kYager: return run<Closed<scalar::Yager, dropped>>(p, begin, end);
-    case kDsmh: return run<OpenDsmh>(p, begin, end);
-    case kPcr1: return run<Closed<scalar::Pcr1, gave_back>>(p, begin, end);
-    case kPcr4: return run<Closed<scalar::Pcr4, gave_back>>(p, begin, end);
-    case kConjunctive: return run<OpenConjunctive>(p, begin, end);
-    case kDisjunctive: return run<Closed<scalar::Disjunctive, dropped>>(p, begin, end);
-    case kMurphy: return run<Closed<scalar::Murphy, dropped>>(p, begin, end);
-    case kCautious: return run<Closed<scalar::Cautious, dropped>>(p, begin, end);
-    case kBayes: return run<Closed<scalar::Bayes, dropped>>(p, begin, end);
-    case kFuzzy: return run<Closed<scalar::Fuzzy, ignored>>(p, begin, end);
-    case kBatchRules: break;
+    case kDempster:
+      return run<Closed<scalar::Dempster, dropped>>(p, begin, end);
+    case kPcr2:
+      return run<Closed<scalar::Pcr2, gave_back>>(p, begin, end);
+    case kPcr5:
+      return run<Closed<scalar::Pcr5, gave_back>>(p, begin, end);
+    case kGermPcr2:
+      return run<OpenGermPcr2>(p, begin, end);
+    case kYager:
+      return run<Closed<scalar::Yager, dropped>>(p, begin, end);
+    case kDsmh:
+      return run<OpenDsmh>(p, begin, end);
+    case kPcr1:
+      return run<Closed<scalar::Pcr1, gave_back>>(p, begin, end);
+    case kPcr4:
+      return run<Closed<scalar::Pcr4, gave_back>>(p, begin, end);
+    case kConjunctive:
+      return run<OpenConjunctive>(p, begin, end);
+    case kDisjunctive:
+      return run<Closed<scalar::Disjunctive, dropped>>(p, begin, end);
+    case kMurphy:
+      return run<Closed<scalar::Murphy, dropped>>(p, begin, end);
+    case kCautious:
+      return run<Closed<scalar::Cautious, dropped>>(p, begin, end);
+    case kBayes:
+      return run<Closed<scalar::Bayes, dropped>>(p, begin, end);
+    case kFuzzy:
+      return run<Closed<scalar::Fuzzy, ignored>>(p, begin, end);
+    case kBatchRules:
+      break;
   }
   return 0;
 }

@@ -12,11 +12,25 @@
 namespace evigrid::kernels {
 
 inline constexpr int kTileSide = 64, kMicroSide = 4, kMicrosPerSide = 16, kMicrosPerTile = 256, kMicroCells = 16;
-/// Rules as kernels; where rules coincide on this frame one kernel serves (engine/src/rule_kernels.cpp). The first kRules
-/// run in maps, all in the batch.
+/// Rules as kernels; where rules coincide on this frame one kernel serves (engine/src/rule_kernels.cpp). The first
+/// kRules run in maps, all in the batch.
 enum RuleKernel : int {
-  kDempster, kPcr2, kPcr5, kGermPcr2, kYager, kDsmh, kPcr1, kPcr4, kRules,
-  kConjunctive = kRules, kDisjunctive, kMurphy, kCautious, kBayes, kFuzzy, kBatchRules
+  kDempster,
+  kPcr2,
+  kPcr5,
+  kGermPcr2,
+  kYager,
+  kDsmh,
+  kPcr1,
+  kPcr4,
+  kRules,
+  kConjunctive = kRules,
+  kDisjunctive,
+  kMurphy,
+  kCautious,
+  kBayes,
+  kFuzzy,
+  kBatchRules
 };
 inline constexpr int kConeModels = 2;  // hughes1992, li2014
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What makes a file one of the avx2 target's. The target is set for that file's own functions only (pragma, not a compiler
-// flag), so that no inline function of the standard library is ever compiled for it and merged into the baseline
-// program. Included first.
+// What makes a file one of the avx2 target's. The target is set for that file's own functions only (pragma, not a
+// compiler flag), so that no inline function of the standard library is ever compiled for it and merged into the
+// baseline program. Included first.
 #pragma once
 #include <bit>
 #include <cstdint>

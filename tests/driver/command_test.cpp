@@ -27,8 +27,8 @@ TEST(Map, WritesItsFilesAndCountsWhatItLeftOut) {
   const TempDir dir;
   const Ran ran = evigrid({"map", dir.write("odd.log", odd_log()), "-o", dir.at("out"), "--threads", "2"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_EQ(dir.names(), (Names{"odd.log", "out", "out/map.evigrid", "out/map.pgm", "out/map.png", "out/map.yaml", "out/masses.npy",
-                                "out/report.json"}));
+  EXPECT_EQ(dir.names(), (Names{"odd.log", "out", "out/map.evigrid", "out/map.pgm", "out/map.png", "out/map.yaml",
+                                "out/masses.npy", "out/report.json"}));
   const Json r = Json::parse(slurp(dir.at("out/report.json")));
   EXPECT_EQ(r["readings_used"], 7 * 180 - 5);
   EXPECT_EQ(r["readings_refused"], Json({{"not_a_number", 1},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A million updates of the same cells, for every rule of maps and every model: the masses stay numbers that add up to 1,
-// and none is ever denormal.
+// A million updates of the same cells, for every rule of maps and every model: the masses stay numbers that add up to
+// 1, and none is ever denormal.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,13 +25,15 @@ TEST(Endless, AMillionUpdatesOfACellStayMasses) {
       const ConeType type({model, 0.05, 0.35, 0.1, 5, 1, 7.62, 1, 0.15, 0.35, 0.1, 80, 10, 0.01});
       // One micro-tile of a tile, before, on and behind what is heard: empty, occupied, and both in turn.
       std::vector<ConeReading> readings;
-      for (const double range_m : {1.0, 1.6, 1.05, 2.5, 1.0}) readings.push_back(compile_cone(type, {0.02, 1.6, 0}, range_m));
+      for (const double range_m : {1.0, 1.6, 1.05, 2.5, 1.0})
+        readings.push_back(compile_cone(type, {0.02, 1.6, 0}, range_m));
       for (const std::vector<int>& turns : {std::vector<int>{0}, {1}, {3}, {0, 1, 2, 3, 4}}) {
         const auto tile = std::make_unique<float[]>(4096 * 3 + 16);
         float* cells = tile.get();
         while (reinterpret_cast<std::uintptr_t>(cells) % 64 != 0) ++cells;
         const std::uint8_t micro = 8 * kMicrosPerSide + 5;  // 1.0 to 1.2 m ahead
-        for (int i = 0; i < 3 * kMicroCells; ++i) cells[micro * 3 * kMicroCells + i] = i < 2 * kMicroCells ? 0.0f : 1.0f;
+        for (int i = 0; i < 3 * kMicroCells; ++i)
+          cells[micro * 3 * kMicroCells + i] = i < 2 * kMicroCells ? 0.0f : 1.0f;
         Stats stats;
         double worst = 0;
         for (int n = 0; n < kUpdates; ++n) {

@@ -26,9 +26,8 @@ Worst worst_error(const Exact& exact, const MassArray<T>& c, const std::vector<T
   Worst worst;
   for (std::size_t i = 0; i < c.size(); ++i) {
     const auto& want = exact.eouck[i];
-    const long double mass =
-        std::max({std::fabs(c.e[i] - want[0]), std::fabs(c.o[i] - want[1]), std::fabs(c.u[i] - want[2]),
-                  std::fabs(c.c[i] - want[3])});
+    const long double mass = std::max({std::fabs(c.e[i] - want[0]), std::fabs(c.o[i] - want[1]),
+                                       std::fabs(c.u[i] - want[2]), std::fabs(c.c[i] - want[3])});
     const bool broken =
         !std::isfinite(c.e[i]) || !std::isfinite(c.o[i]) || !std::isfinite(c.u[i]) || !std::isfinite(c.c[i]);
     if (broken || mass > worst.mass) worst.mass = broken ? INFINITY : mass, worst.at = i;

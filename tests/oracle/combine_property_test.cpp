@@ -208,14 +208,15 @@ double association_gap(Rule rule) {
   for (std::size_t i = 0; i + 2 < m.size(); i += 3) {
     Mass3 s[3];
     for (std::size_t j = 0; j < 3; ++j) s[j] = {m.e[i + j], m.o[i + j], m.u[i + j], 0};
-    worst = std::max(worst, distance(fuse(rule, fuse(rule, s[0], s[1]), s[2]), fuse(rule, s[0], fuse(rule, s[1], s[2]))));
+    worst =
+        std::max(worst, distance(fuse(rule, fuse(rule, s[0], s[1]), s[2]), fuse(rule, s[0], fuse(rule, s[1], s[2]))));
   }
   return worst;
 }
 
 TEST(CombineFacts, WhichRulesAreAssociative) {
-  for (const Rule rule : {Rule::conjunctive, Rule::dsmc, Rule::dempster, Rule::cautious, Rule::disjunctive, Rule::bayes,
-                          Rule::fuzzy})
+  for (const Rule rule :
+       {Rule::conjunctive, Rule::dsmc, Rule::dempster, Rule::cautious, Rule::disjunctive, Rule::bayes, Rule::fuzzy})
     EXPECT_LE(association_gap(rule), 1e-12) << name(rule);
   for (const Rule rule : {Rule::yager, Rule::dubois_prade, Rule::dsmh, Rule::pcr1, Rule::pcr2, Rule::pcr3, Rule::pcr4,
                           Rule::pcr5, Rule::pcr6, Rule::germ_pcr2, Rule::murphy})
@@ -288,8 +289,8 @@ TEST(CombineFacts, TheOrderOfReadingsCountsUnderPcr5) {
     } while (std::next_permutation(order.begin(), order.end()));
     sum += high - low, most = std::max(most, high - low), changed += low < 0.5 && high > 0.5;
   }
-  std::cout << "PCR5, orders of five one-sided sources: BetP spreads by " << sum / kCells << ", at most " << most << "; "
-            << 100.0 * changed / kCells << " % of decisions change\n";
+  std::cout << "PCR5, orders of five one-sided sources: BetP spreads by " << sum / kCells << ", at most " << most
+            << "; " << 100.0 * changed / kCells << " % of decisions change\n";
   EXPECT_NEAR(sum / kCells, 0.11, 0.01);
   EXPECT_GE(most, 0.4);
   EXPECT_GE(1.0 * changed / kCells, 0.1);

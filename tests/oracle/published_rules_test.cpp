@@ -18,7 +18,7 @@ struct Printed {
   const char* source;
   Rule rule;
   Triple a, b, result;
-  double half_digit;   ///< half a unit of the last printed digit (or what a known misprint needs)
+  double half_digit;  ///< half a unit of the last printed digit (or what a known misprint needs)
   double paradox = kNone;
 };
 
@@ -74,8 +74,7 @@ const std::vector<Printed>& printed() {
 }
 
 template <class T>
-Triple through_engine(Rule rule, const Triple& a, const Triple& b, Kernel kernel, T* conflict,
-                      T* paradox = nullptr) {
+Triple through_engine(Rule rule, const Triple& a, const Triple& b, Kernel kernel, T* conflict, T* paradox = nullptr) {
   const T x[3] = {T(a[0]), T(a[1]), T(a[2])}, y[3] = {T(b[0]), T(b[1]), T(b[2])};
   T z[3] = {};
   const evigrid::Planes<const T> pa{x, x + 1, x + 2}, pb{y, y + 1, y + 2};

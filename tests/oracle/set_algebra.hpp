@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Belief functions on bit-mask focal elements (the rules: set_rules.hpp). A mask is a set of parts of the Venn diagram of the hypotheses; an
-// integrity constraint says which parts are impossible. Runs on any number type (exact rationals, double).
+// Belief functions on bit-mask focal elements (the rules: set_rules.hpp). A mask is a set of parts of the Venn diagram
+// of the hypotheses; an integrity constraint says which parts are impossible. Runs on any number type (exact rationals,
+// double).
 #pragma once
 #include <array>
 #include <vector>

@@ -168,8 +168,7 @@ T pignistic(const Frame& frame, const Belief<T, Parts>& m, unsigned h) {
 template <class T, unsigned Parts>
 Combined<T, Parts> bayes(const Frame& frame, const Belief<T, Parts>& m1, const Belief<T, Parts>& m2) {
   Combined<T, Parts> out;
-  for (unsigned h : frame.hypotheses)
-    out.m[h] = pignistic<T, Parts>(frame, m1, h) * pignistic<T, Parts>(frame, m2, h);
+  for (unsigned h : frame.hypotheses) out.m[h] = pignistic<T, Parts>(frame, m1, h) * pignistic<T, Parts>(frame, m2, h);
   if (!divide_by_sum<T, Parts>(out.m)) {
     for (unsigned h : frame.hypotheses) out.m[h] = T(1) / T(static_cast<unsigned>(frame.hypotheses.size()));
     out.total_conflict = true;

@@ -57,7 +57,9 @@ std::vector<Subject> read_subjects(const CompareOptions& o) {
 }
 
 std::string name_of(const CompareOptions& o) {
-  const std::string path = !o.inputs.empty() ? o.inputs.front() : !o.world.world.empty() ? o.world.world : "default scene";
+  const std::string path = !o.inputs.empty()        ? o.inputs.front()
+                           : !o.world.world.empty() ? o.world.world
+                                                    : "default scene";
   return std::filesystem::path(path).filename().string();
 }
 
@@ -159,15 +161,13 @@ void compare(const CompareOptions& given) {
   std::vector<Panel> panels;
   // The sheet shows the world; readings that leak far outside of it must not make it small.
   const SheetScale scale = sheet_scale(truth ? CellRect{truth->x, truth->y, truth->width, truth->height} : all,
-                  results.size() < kMostColumns ? kFewPanel_px : kPanel_px);
+                                       results.size() < kMostColumns ? kFewPanel_px : kPanel_px);
   if (truth) panels.push_back({"truth", {"dark: surfaces  pale: free  grey: out of sight"}, thumbnail(*truth, scale)});
   for (const Result& r : results) {
     rows.push_back(r.row);
     panels.push_back({caption(r.row), figures(r.row), thumbnail(r.layers, scale)});
   }
-  const std::string title = fmt::format("evigrid compare: {}, cell {:g} m",
-                                        name_of(o),
-                                        results.front().layers.cell_m);
+  const std::string title = fmt::format("evigrid compare: {}, cell {:g} m", name_of(o), results.front().layers.cell_m);
   const int count = static_cast<int>(panels.size());
   const int columns = count <= kMostColumns ? count : count % 3 == 0 ? 3 : kMostColumns;
   out.write("sheet.png", png(draw_sheet(title, panels, columns)), {});
@@ -178,7 +178,8 @@ void compare(const CompareOptions& given) {
   out.write("report.json", bytes);
   if (!o.mapping.json.empty() && o.mapping.json != "-") out.write_outside(o.mapping.json, bytes);
   out.commit();
-  std::cout << (o.mapping.json == "-" ? bytes : to_markdown(rows) + "Look at " + (out.path() / "sheet.png").string() + "\n");
+  std::cout << (o.mapping.json == "-" ? bytes
+                                      : to_markdown(rows) + "Look at " + (out.path() / "sheet.png").string() + "\n");
 }
 
 }  // namespace evigrid::driver

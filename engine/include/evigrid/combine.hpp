@@ -24,8 +24,8 @@ struct Planes {
 /// the calling thread. Returns how many pairs were in total conflict: Dempster answers those with the vacuous mass. No
 /// floor is applied: exact inputs give the exact rule. Throws std::invalid_argument for a kernel that cannot run.
 /// c of A and B, none when null: conjunctive and dsmc keep it, dsmh and germ_pcr2 consume it, the PCR family gives it
-/// back to e and o, the others drop it (fuzzy: ignores it). c of C receives it, 0 where the rule leaves none. Pairs with
-/// a c are combined in double and rounded, by any kernel. What the masses are to bayes and fuzzy: docs/maths.md.
+/// back to e and o, the others drop it (fuzzy: ignores it). c of C receives it, 0 where the rule leaves none. Pairs
+/// with a c are combined in double and rounded, by any kernel. What the masses are to bayes and fuzzy: docs/maths.md.
 std::uint64_t combine(Rule, Planes<const float> a, Planes<const float> b, Planes<float> c, float* conflict,
                       std::size_t n, Kernel = Kernel::automatic, Executor* = nullptr);
 std::uint64_t combine(Rule, Planes<const double> a, Planes<const double> b, Planes<double> c, double* conflict,
