@@ -123,8 +123,7 @@ bool vacuous_is_neutral(Rule rule) {
   return rule != Rule::disjunctive && rule != Rule::murphy && rule != Rule::bayes && rule != Rule::fuzzy;
 }
 
-TEST_P(CombineProperty, VacuousChangesNothing) {
-  if (!vacuous_is_neutral(GetParam())) GTEST_SKIP() << "not a property of this rule";
+TEST_P(CombineProperty, VacuousChangesNothingWhereItIsNeutral) {
   std::mt19937_64 engine(3);
   MassArray<float> exact(0), rounded(0);  // multiples of 2^-23 add up to exactly 1 in every order
   for (int i = 0; i < 10'000; ++i) {
@@ -146,7 +145,11 @@ TEST_P(CombineProperty, VacuousChangesNothing) {
       const Result r = run(GetParam(), *input, vacuous, kernel);
       const int ulps =
           std::max({worst_ulps(r.c.e, input->e), worst_ulps(r.c.o, input->o), worst_ulps(r.c.u, input->u)});
-      EXPECT_LE(ulps, GetParam() == Rule::dempster && input == &exact ? 0 : 2) << name(kernel);
+      if (vacuous_is_neutral(GetParam())) {
+        EXPECT_LE(ulps, GetParam() == Rule::dempster && input == &exact ? 0 : 2) << name(kernel);
+      } else {
+        EXPECT_GT(ulps, 1'000'000) << name(kernel);
+      }
       std::cout << "vacuous " << name(GetParam()) << ' ' << name(kernel) << (input == &exact ? " exact" : " rounded")
                 << " sums: at most " << ulps << " ulp\n";
       for (float k : r.conflict) ASSERT_EQ(k, 0);
