@@ -113,5 +113,12 @@ BENCHMARK_CAPTURE(combine_in_place, dempster, Rule::dempster)->Apply(sizes);
 BENCHMARK_CAPTURE(combine_in_place, pcr2, Rule::pcr2)->Apply(sizes);
 BENCHMARK_CAPTURE(combine_in_place, pcr5, Rule::pcr5)->Apply(sizes);
 BENCHMARK_CAPTURE(combine_in_place, germ_pcr2, Rule::germ_pcr2)->Apply(sizes);
+BENCHMARK_CAPTURE(combine_in_place, yager, Rule::yager)->Apply(sizes);
+BENCHMARK_CAPTURE(combine_in_place, pcr1, Rule::pcr1)->Apply(sizes);
+BENCHMARK_CAPTURE(combine_in_place, pcr4, Rule::pcr4)->Apply(sizes);
+BENCHMARK_CAPTURE(combine_in_place, disjunctive, Rule::disjunctive)->Apply(sizes);
+BENCHMARK_CAPTURE(combine_in_place, cautious, Rule::cautious)->Apply(sizes);
+BENCHMARK_CAPTURE(combine_in_place, murphy, Rule::murphy)->Apply(sizes);
+BENCHMARK_CAPTURE(combine_in_place, bayes, Rule::bayes)->Apply(sizes);
 
 }  // namespace

@@ -22,46 +22,109 @@ namespace {
 
 struct Args {
   std::string rule, in, out, kernel = "auto", executor = "serial";
-  int threads = 0;
+  int threads = 0, sources = 2;
   bool in_double = false;
 };
 
 template <class T>
 struct Masses {
-  std::vector<T> e, o, u;
-  explicit Masses(std::size_t n) : e(n), o(n), u(n) {}
-  Masses(const std::vector<double>& from_e, const std::vector<double>& from_o) : Masses(from_e.size()) {
+  std::vector<T> e, o, u, c;  // c may be empty: none
+  Masses(std::size_t n, bool with_c) : e(n), o(n), u(n), c(with_c ? n : 0) {}
+  explicit Masses(const SourceMasses& s) : Masses(s.e.size(), !s.c.empty()) {
     for (std::size_t i = 0; i < e.size(); ++i) {  // u in the precision of the work, never below zero
-      e[i] = static_cast<T>(from_e[i]);
-      o[i] = static_cast<T>(from_o[i]);
-      u[i] = std::max(T{0}, T{1} - e[i] - o[i]);
+      e[i] = static_cast<T>(s.e[i]);
+      o[i] = static_cast<T>(s.o[i]);
+      u[i] = T{1} - e[i] - o[i];
+      if (!c.empty()) u[i] -= c[i] = static_cast<T>(s.c[i]);
+      u[i] = std::max(T{0}, u[i]);
     }
   }
-  [[nodiscard]] Planes<T> planes() { return {e.data(), o.data(), u.data()}; }
-  [[nodiscard]] Planes<const T> planes() const { return {e.data(), o.data(), u.data()}; }
+  [[nodiscard]] Planes<T> planes() { return {e.data(), o.data(), u.data(), c.empty() ? nullptr : c.data()}; }
+  [[nodiscard]] Planes<const T> planes() const {
+    return {e.data(), o.data(), u.data(), c.empty() ? nullptr : c.data()};
+  }
 };
 
 template <class T>
-std::string combined(const MassPairs& pairs, Rule rule, Kernel kernel, Executor* executor) {
-  const std::size_t n = pairs.rows();
-  const Masses<T> a(pairs.columns[0], pairs.columns[1]), b(pairs.columns[2], pairs.columns[3]);
-  Masses<T> c(n);
-  std::vector<T> conflict(n);
+struct Work {
+  Rule rule;
+  Kernel kernel;
+  Executor* executor;
+  std::vector<T> k = {};  // of one step
   std::uint64_t total = 0;
-  if constexpr (std::is_same_v<T, float>) {
-    total = combine(rule, a.planes(), b.planes(), c.planes(), conflict.data(), n, kernel, executor);
-  } else {
-    total = combine(rule, a.planes(), b.planes(), c.planes(), conflict.data(), n, executor);
+
+  void combine(Rule by, const Masses<T>& a, const Masses<T>& b, Masses<T>& c) {
+    k.resize(a.e.size());
+    if constexpr (std::is_same_v<T, float>) {
+      total += evigrid::combine(by, a.planes(), b.planes(), c.planes(), k.data(), k.size(), kernel, executor);
+    } else {
+      total += evigrid::combine(by, a.planes(), b.planes(), c.planes(), k.data(), k.size(), executor);
+    }
   }
-  if (total > 0)
-    fmt::print(stderr, "evigrid: {} of {} rows in total conflict, answered by the rule's policy (--help)\n", total, n);
+};
+
+template <class T>
+void add_up(std::vector<T>& sum, const std::vector<T>& k) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += k[i];
+}
+
+/// One source after the other, in order.
+template <class T>
+void in_order(const MassRows& rows, Work<T>& work, Masses<T>& out, std::vector<T>& k) {
+  Masses<T> state(rows.sources[0]);
+  for (std::size_t s = 1; s < rows.sources.size(); ++s) {
+    work.combine(work.rule, state, Masses<T>(rows.sources[s]), out);
+    add_up(k, work.k);
+    if (s + 1 < rows.sources.size()) state = out;
+  }
+}
+
+/// Murphy's rule for s > 2 sources: their mean with itself, s − 1 times, by Dempster's rule. A source's c is dropped.
+template <class T>
+void mean_of_sources(const MassRows& rows, Work<T>& work, Masses<T>& out, std::vector<T>& k) {
+  const std::size_t n = rows.rows();
+  Masses<T> mean(n, false), vacuous(n, false);
+  std::fill(vacuous.u.begin(), vacuous.u.end(), T{1});
+  const T share = T{1} / static_cast<T>(rows.sources.size());
+  for (const SourceMasses& source : rows.sources) {
+    Masses<T> one(source);
+    if (!one.c.empty()) work.combine(Rule::dempster, one, vacuous, one);  // drops c and divides by the sum of the rest
+    for (std::size_t i = 0; i < n; ++i) {
+      mean.e[i] += one.e[i] * share;
+      mean.o[i] += one.o[i] * share;
+      mean.u[i] += one.u[i] * share;
+    }
+  }
+  out = mean;
+  for (std::size_t s = 1; s < rows.sources.size(); ++s) {
+    work.combine(Rule::dempster, out, mean, out);
+    add_up(k, work.k);
+  }
+}
+
+template <class T>
+std::string combined(const MassRows& rows, Rule rule, Kernel kernel, Executor* executor) {
+  const std::size_t n = rows.rows();
+  Work<T> work{rule, kernel, executor};
+  Masses<T> out(n, true);
+  std::vector<T> conflict(n);
+  if (rule == Rule::murphy && rows.sources.size() > 2) {
+    mean_of_sources(rows, work, out, conflict);
+    out.c.assign(n, T{0});
+  } else {
+    in_order(rows, work, out, conflict);
+  }
+  if (work.total > 0) {
+    fmt::print(stderr, "evigrid: {} of {} {} in total conflict, answered by the rule's policy (--help)\n", work.total,
+               n * (rows.sources.size() - 1), rows.sources.size() > 2 ? "combinations" : "rows");
+  }
   constexpr int kDigits = std::numeric_limits<T>::max_digits10;
   fmt::memory_buffer csv;
   auto to = std::back_inserter(csv);
   fmt::format_to(to, "e,o,u,c,k\n");
   for (std::size_t i = 0; i < n; ++i) {
-    fmt::format_to(to, "{:.{}g},{:.{}g},{:.{}g},0,{:.{}g}\n", c.e[i], kDigits, c.o[i], kDigits, c.u[i], kDigits,
-                   conflict[i], kDigits);
+    fmt::format_to(to, "{:.{}g},{:.{}g},{:.{}g},{:.{}g},{:.{}g}\n", out.e[i], kDigits, out.o[i], kDigits, out.u[i],
+                   kDigits, out.c[i], kDigits, conflict[i], kDigits);
   }
   return fmt::to_string(csv);
 }
@@ -81,10 +144,10 @@ void combine_file(const Args& args) {
     file.open(args.in, std::ios::binary);
     if (!file) throw InputError(fmt::format("{}: cannot be opened: {}", args.in, std::strerror(errno)));
   }
-  const MassPairs pairs =
-      args.in.empty() ? read_mass_pairs(std::cin, "(standard input)") : read_mass_pairs(file, args.in);
-  const std::string csv = args.in_double ? combined<double>(pairs, rule, kernel, executor.get())
-                                         : combined<float>(pairs, rule, kernel, executor.get());
+  const MassRows rows = args.in.empty() ? read_masses(std::cin, "(standard input)", args.sources)
+                                        : read_masses(file, args.in, args.sources);
+  const std::string csv = args.in_double ? combined<double>(rows, rule, kernel, executor.get())
+                                         : combined<float>(rows, rule, kernel, executor.get());
   args.out.empty() ? void(std::cout << csv) : write_file(args.out, csv);
 }
 
@@ -92,11 +155,12 @@ void combine_file(const Args& args) {
 
 void add_combine(CLI::App& app) {
   auto args = std::make_shared<Args>();
-  CLI::App* command = app.add_subcommand("combine", "combine two masses per row of a CSV file");
+  CLI::App* command = app.add_subcommand("combine", "combine the masses of two or more sources per row of a CSV file");
   command->add_option("--rule", args->rule, "combination rule: " + rule_names())->required();
   command->add_option("--in", args->in, "CSV file; without it standard input");
   command->add_option("-o,--out", args->out, "write to this file instead of standard output");
   command->add_flag("--double", args->in_double, "in double precision");
+  command->add_option("--sources", args->sources, "sources per row: columns e1,o1 ... es,os")->capture_default_str();
   command->add_option("--kernel", args->kernel, "auto, scalar, avx2 or avx512; the result is the same")
       ->capture_default_str();
   command->add_option("--executor", args->executor, "serial, tbb or openmp; the result is the same")
@@ -104,15 +168,26 @@ void add_combine(CLI::App& app) {
   command->add_option("--threads", args->threads, "worker threads; 0: as many as the machine has")
       ->capture_default_str();
   command->footer(
-      "Reads columns e1,o1,e2,o2 (found by the head line; unknown is 1 - e - o) and writes e,o,u,c,k, a row for a "
+      "Reads columns e1,o1,e2,o2 (found by the head line; unknown is 1 - e - o - c) and writes e,o,u,c,k, a row for a "
       "row:\n"
-      "masses of empty, occupied, unknown, paradox (0 for today's rules), and the conflict k = e1*o2 + o1*e2.\n"
-      "Total conflict: Dempster's rule is undefined there and answers the vacuous mass (0, 0, 1); such rows are "
-      "counted\n"
-      "on standard error. The other rules redistribute it.\n\n"
+      "masses of empty, occupied, unknown, of empty and occupied at once (the paradox; m of the empty set in the open\n"
+      "world), and the conflict k = e1*o2 + o1*e2.\n"
+      "Columns c1, c2, ... are the sources' masses on the paradox: conjunctive and dsmc keep it, dsmh and germ_pcr2\n"
+      "consume it (k then holds it too), the other pcr rules first give it back to e and o, all others drop it.\n"
+      "--sources s: sources are combined one after the other in the order 1, 2, ... s, so the order counts for rules\n"
+      "that are not associative; k is the sum over the steps. murphy takes the mean of all s sources and combines it\n"
+      "s - 1 times by Dempster's rule. Joint forms of the pcr rules for more than two sources are not built yet.\n"
+      "Total conflict: Dempster's rule is undefined there and answers the vacuous mass (0, 0, 1), bayes answers 1/2;\n"
+      "such rows are counted on standard error. The other rules redistribute it.\n"
+      "bayes: o is the probability of occupied, from the odds of o + u/2 of each source; e = 1 - o.\n"
+      "fuzzy: e and o are the memberships of empty and occupied, u = (1-e)(1-o) neither and c = e*o both: no masses.\n"
+      "cautious: for sources that repeat each other (Denoeux), divided by its sum.\n"
+      "Where rules coincide for two sources one computation serves: pcr3 is pcr2, pcr6 is pcr5, dubois_prade is "
+      "yager.\n\n"
       "Examples:\n"
       "  evigrid combine --rule pcr5 --in pairs.csv\n"
-      "  printf 'e1,o1,e2,o2\\n0.6,0.1,0.2,0.7\\n' | evigrid combine --rule dempster --double\n");
+      "  printf 'e1,o1,e2,o2\\n0.6,0.1,0.2,0.7\\n' | evigrid combine --rule dempster --double\n"
+      "  evigrid combine --rule conjunctive --sources 3 --in three.csv\n");
   command->callback([args] { combine_file(*args); });
 }
 

@@ -41,7 +41,9 @@ void add_compare(CLI::App& app) {
   command->remove_option(command->get_option("--rule"));
   command->remove_option(command->get_option("--model"));
   for (const char* single : {"--layers", "--costmap", "--pgm-mode"}) command->remove_option(command->get_option(single));
-  command->add_option("--rules", args->rules, "comma-separated, or all: " + rule_names())->capture_default_str();
+  command
+      ->add_option("--rules", args->rules, "comma-separated, or all (one of those that coincide): " + map_rule_names())
+      ->capture_default_str();
   command->add_option("--models", args->models, "sonar models, comma-separated, or all: " + model_names())
       ->capture_default_str();
   command->add_option("--robots", args->robots, "robots for a scene or a --world, comma-separated");
@@ -53,7 +55,7 @@ void add_compare(CLI::App& app) {
       "  evigrid compare intel.log.gz -o out/compare --rules dempster,pcr5 --max-range 10\n"
       "  evigrid compare --world office.yaml -o out/compare --robots hughes24,laser180 --rules pcr5 --models li2014\n");
   command->callback([args] {
-    args->options.rules = args->rules == "all" ? split_list(rule_names()) : split_list(args->rules);
+    args->options.rules = args->rules == "all" ? split_list(different_map_rule_names()) : split_list(args->rules);
     args->options.models = args->models == "all" ? split_list(model_names()) : split_list(args->models);
     args->options.robots = split_list(args->robots);
     compare(args->options);

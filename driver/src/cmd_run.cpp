@@ -84,15 +84,18 @@ void add_run(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "simulate the robot of a scene and map its readings");
   add_world_options(*command, args->input);
   add_mapping_options(*command, args->mapping);
-  command->get_option("--rule")->description("combination rule: " + rule_names() + " (default: the scene's, or pcr5)");
+  command->get_option("--rule")->description("combination rule: " + map_rule_names() +
+                                             " (default: the scene's, or pcr5)");
   command->get_option("--cell")->description(
       "side of a cell, m (default: the scene's; in a --world 0.05 with lasers, 0.1 without)");
   command->get_option("--model")->description("sensor model of every sonar (default: each sonar's own)");
   command->get_option("--reliability")
       ->description("Shafer discount in (0, 1] of every sensor (default: each one's own)");
   command->footer(
-      "Writes the same files as `evigrid map`, and truth.png: the map over the true world. report.json also has cast_s,\n"
-      "the time of the ray casting; truth, how well the map agrees with the world (docs/maths.md); and, when the scene\n"
+      "Writes the same files as `evigrid map`, and truth.png: the map over the true world. report.json also has "
+      "cast_s,\n"
+      "the time of the ray casting; truth, how well the map agrees with the world (docs/maths.md); and, when the "
+      "scene\n"
       "has an odometry, how far the believed pose strayed from the true one.\n\n"
       "Examples:\n"
       "  evigrid run -o out\n"

@@ -28,7 +28,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 Plan make_plan(const MappingOptions& o) {
   Plan plan;
-  plan.params.rule = parse_rule(o.rule);
+  plan.params.rule = parse_map_rule(o.rule);
   plan.params.kernel = parse_kernel(o.kernel);
   if (!o.model.empty()) parse_model(o.model);
   if (o.cell_m) plan.params.cell_m = *o.cell_m;

@@ -26,11 +26,28 @@ constexpr int kMostThreads = 4096;
 }  // namespace
 
 std::string rule_names() { return joined(all_rules()); }
+std::string map_rule_names() { return joined(map_rules()); }
+std::string different_map_rule_names() {
+  std::vector<Rule> out;
+  for (const Rule rule : map_rules()) {
+    if (same_as(rule) == rule) out.push_back(rule);
+  }
+  return joined(std::span<const Rule>(out));
+}
 std::string model_names() { return joined(all_models()); }
 
 Rule parse_rule(const std::string& text) {
   if (const auto rule = rule_from_name(text)) return *rule;
   throw InputError(fmt::format("--rule: '{}' is unknown or not built yet; known: {}", text, rule_names()));
+}
+
+Rule parse_map_rule(const std::string& text) {
+  const Rule rule = parse_rule(text);
+  if (const auto why = why_not_in_maps(rule); !why.empty()) {
+    throw InputError(fmt::format("--rule: {} cannot be the rule of a map: {}; use it with combine. For maps: {}", text,
+                                 why, map_rule_names()));
+  }
+  return rule;
 }
 
 Model parse_model(const std::string& text) {
@@ -71,21 +88,26 @@ std::shared_ptr<Executor> parse_executor(const std::string& text, int threads) {
 }
 
 std::string describe_outputs() {
-  return "Writes into DIR: map.png; map.yaml and map.pgm (ROS map_server); masses.npy (float32, 4 x height x width: e, o,\n"
-         "u, running sum of conflict; row 0 is the smallest y); map.evigrid (the whole map, for `evigrid show`, `evigrid\n"
+  return "Writes into DIR: map.png; map.yaml and map.pgm (ROS map_server); masses.npy (float32, 4 x height x width: e, "
+         "o,\n"
+         "u, running sum of conflict; row 0 is the smallest y); map.evigrid (the whole map, for `evigrid show`, "
+         "`evigrid\n"
          "info` and other programs); report.json (what was used, what was refused and why).\n\n"
-         "--layers draws numbers with a colour bar (betp, bel, pl, empty, unknown, ignorance, entropy, conflict, costmap),\n"
+         "--layers draws numbers with a colour bar (betp, bel, pl, empty, unknown, ignorance, entropy, conflict, "
+         "costmap),\n"
          "the grey composite and panels of Hughes & Murphy 1992, and Bel(occupied) as a surface.\n\n"
-         "--pgm-mode: trinary 0 occupied (BetP > 0.65), 254 free (BetP < 0.196), 205 unknown; scale: grey = 255 (1 - BetP),\n"
+         "--pgm-mode: trinary 0 occupied (BetP > 0.65), 254 free (BetP < 0.196), 205 unknown; scale: grey = 255 (1 - "
+         "BetP),\n"
          "a PGM has no way to say unknown there, never seen is 1/2; raw: 0 ... 100 = 100 BetP, 255 never seen.\n\n"
          "--costmap: occupancy.npy (int8, nav_msgs/OccupancyGrid): -1 no information, 0 free, 100 occupied, 1 ... 99\n"
-         "between; costmap.npy, costmap.pgm (uint8, costmap_2d): 255 no information, 0 free, 254 lethal, 1 ... 252 between,\n"
+         "between; costmap.npy, costmap.pgm (uint8, costmap_2d): 255 no information, 0 free, 254 lethal, 1 ... 252 "
+         "between,\n"
          "253 is left to inflation. Free: BetP < 0.196; occupied: BetP > 0.65; no information: m(unknown) > 0.9.\n\n";
 }
 
 void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("-o,--out", o.out_dir, "output folder; made when missing")->required();
-  command.add_option("--rule", o.rule, "combination rule: " + rule_names())->capture_default_str();
+  command.add_option("--rule", o.rule, "combination rule: " + map_rule_names())->capture_default_str();
   command.add_option("--model", o.model,
                      "sensor model: " + model_names() + " (default: beam for lasers, li2014 for sonars)");
   command.add_option("--cell", o.cell_m, "side of a cell, m (default: 0.05 for lasers, 0.1 for sonars)");
@@ -97,7 +119,8 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("--executor", o.executor, "serial, tbb or openmp; the map is the same")->capture_default_str();
   command.add_option("--kernel", o.kernel, "auto, scalar, avx2 or avx512; the map is the same")->capture_default_str();
   command.add_option("--json", o.json, "also write report.json to this file; - for standard output");
-  command.add_option("--layers", o.layers, "also draw these, comma-separated, or all, as layer_NAME.png: " + look_names());
+  command.add_option("--layers", o.layers,
+                     "also draw these, comma-separated, or all, as layer_NAME.png: " + look_names());
   command.add_option("--pgm-mode", o.pgm_mode, "how map.pgm holds BetP for ROS map_server: trinary, scale or raw")
       ->capture_default_str();
   command.add_flag("--costmap", o.costmap, "also write costmap.npy, costmap.pgm and occupancy.npy");

@@ -34,12 +34,15 @@ std::string describe_outputs();
 
 /// Each throws InputError naming the option, the value and the known names.
 Rule parse_rule(const std::string& name);
+Rule parse_map_rule(const std::string& name);  ///< also refuses the rules that need more than a map keeps
 Model parse_model(const std::string& name);
 Kernel parse_kernel(const std::string& name);
 std::shared_ptr<Executor> parse_executor(const std::string& name, int threads);
 
 /// The names of all rules (models) that are built, comma-separated.
 std::string rule_names();
+std::string map_rule_names();
+std::string different_map_rule_names();  ///< of rules that coincide, the first
 std::string model_names();
 
 }  // namespace evigrid::driver

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "kernels/row/kernel_table.hpp"
+#include "rule_kernels.hpp"
 
 namespace evigrid {
 namespace {
@@ -42,22 +43,57 @@ std::uint64_t over_blocks(std::size_t n, Executor* executor, const Body& body) {
   return context.sum;
 }
 
+bool leaves_paradox(Rule rule) {
+  const kernels::RuleKernel k = kernel_of(rule);
+  return k == kernels::kConjunctive || k == kernels::kFuzzy;
+}
+
+/// Floats with mass on empty ∩ occupied, in double a few at a time.
+std::uint64_t through_double(Rule rule, Planes<const float> a, Planes<const float> b, Planes<float> c, float* conflict,
+                             std::size_t begin, std::size_t end) {
+  constexpr std::size_t kFew = 256;
+  double in[8][kFew], out[5][kFew];
+  const float* const from[8] = {a.e, a.o, a.u, a.c, b.e, b.o, b.u, b.c};
+  float* const to[5] = {c.e, c.o, c.u, c.c, conflict};
+  const kernels::DoublePlanes planes{in[0], in[1],  in[2],  in[3],  in[4],  in[5], in[6],
+                                     in[7], out[0], out[1], out[2], out[3], out[4]};
+  std::fill_n(out[3], kFew, 0.0);
+  std::uint64_t totals = 0;
+  for (std::size_t at = begin; at < end; at += kFew) {
+    const std::size_t n = std::min(kFew, end - at);
+    for (std::size_t p = 0; p < 8; ++p) {
+      for (std::size_t i = 0; i < n; ++i) in[p][i] = from[p] != nullptr ? from[p][at + i] : 0.0f;
+    }
+    totals += kernels::dense_double(kernel_of(rule), planes, 0, n);
+    for (std::size_t p = 0; p < 5; ++p) {
+      for (std::size_t i = 0; i < n && to[p] != nullptr; ++i) to[p][at + i] = static_cast<float>(out[p][i]);
+    }
+  }
+  return totals;
+}
+
 }  // namespace
 
 std::uint64_t combine(Rule rule, Planes<const float> a, Planes<const float> b, Planes<float> c, float* conflict,
                       std::size_t n, Kernel kernel, Executor* executor) {
-  const auto dense = table_of(kernel).dense[static_cast<int>(rule)];
-  const kernels::DensePlanes planes{a.e, a.o, a.u, b.e, b.o, b.u, c.e, c.o, c.u, conflict};
-  return over_blocks(n, executor, [&](std::size_t begin, std::size_t end) { return dense(planes, begin, end); });
+  const auto dense = table_of(kernel).dense[kernel_of(rule)];
+  const kernels::DensePlanes planes{a.e, a.o, a.u, b.e, b.o, b.u, c.e, c.o, c.u, conflict, c.c};
+  const bool open = a.c != nullptr || b.c != nullptr;
+  return over_blocks(n, executor, [&](std::size_t begin, std::size_t end) {
+    if (open) return through_double(rule, a, b, c, conflict, begin, end);
+    const std::uint64_t totals = dense(planes, begin, end);
+    if (c.c != nullptr && !leaves_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0f);
+    return totals;
+  });
 }
 
 std::uint64_t combine(Rule rule, Planes<const double> a, Planes<const double> b, Planes<double> c, double* conflict,
                       std::size_t n, Executor* executor) {
-  const double* const pa[3] = {a.e, a.o, a.u};
-  const double* const pb[3] = {b.e, b.o, b.u};
-  double* const pc[3] = {c.e, c.o, c.u};
+  const kernels::DoublePlanes planes{a.e, a.o, a.u, a.c, b.e, b.o, b.u, b.c, c.e, c.o, c.u, c.c, conflict};
   return over_blocks(n, executor, [&](std::size_t begin, std::size_t end) {
-    return kernels::dense_double(static_cast<int>(rule), pa, pb, pc, conflict, begin, end);
+    const std::uint64_t totals = kernels::dense_double(kernel_of(rule), planes, begin, end);
+    if (c.c != nullptr && !leaves_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0);
+    return totals;
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "rule_kernels.hpp"
 #include "scan/bin.hpp"
 #include "scan/footprint.hpp"
 #include "scan/gate.hpp"
@@ -23,7 +24,7 @@ struct Batch {
 /// One tile: its readings, in order.
 void fuse_tile(const Batch& b, std::size_t index) {
   const TileWork& w = b.work[index];
-  const int rule = static_cast<int>(b.p.params.rule);
+  const int rule = kernel_of(b.p.params.rule);
   MicroList micros;
   kernels::FanMicros fan_micros;
   kernels::TileArgs args;

@@ -12,7 +12,26 @@
 namespace evigrid::kernels {
 
 inline constexpr int kTileSide = 64, kMicroSide = 4, kMicrosPerSide = 16, kMicrosPerTile = 256, kMicroCells = 16;
-inline constexpr int kRules = 4;       // dempster, pcr2, pcr5, germ_pcr2: the order of evigrid::Rule
+/// Rules as kernels; where rules coincide on this frame one kernel serves (engine/src/rule_kernels.cpp). The first
+/// kRules run in maps, all in the batch.
+enum RuleKernel : int {
+  kDempster,
+  kPcr2,
+  kPcr5,
+  kGermPcr2,
+  kYager,
+  kDsmh,
+  kPcr1,
+  kPcr4,
+  kRules,
+  kConjunctive = kRules,
+  kDisjunctive,
+  kMurphy,
+  kCautious,
+  kBayes,
+  kFuzzy,
+  kBatchRules
+};
 inline constexpr int kConeModels = 2;  // hughes1992, li2014
 
 struct Stats {
@@ -47,6 +66,13 @@ struct Measured {
 struct DensePlanes {
   const float *ae, *ao, *au, *be, *bo, *bu;
   float *ce, *co, *cu, *k;  // k may be null
+  float* cc = nullptr;      // mass on empty ∩ occupied, of the rules that leave one; may be null
+};
+
+/// The same in double, with the operands' masses on empty ∩ occupied (null: none).
+struct DoublePlanes {
+  const double *ae, *ao, *au, *ac, *be, *bo, *bu, *bc;
+  double *ce, *co, *cu, *cc, *k;  // cc and k may be null
 };
 
 struct KernelTable {
@@ -57,7 +83,7 @@ struct KernelTable {
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
   void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
   void (*combine_measured[kRules][kConeModels])(const TileArgs&, const Measured&, Stats&);
-  std::uint64_t (*dense[kRules])(const DensePlanes&, std::size_t begin, std::size_t end);
+  std::uint64_t (*dense[kBatchRules])(const DensePlanes&, std::size_t begin, std::size_t end);
 };
 
 /// One point of a cone, by the scalar functions. Arguments as Polar (cells).
@@ -66,9 +92,8 @@ struct PointMass {
 };
 PointMass measure_point(int cone_model, const ConeReading&, float nl, float nr, float d2, float edge);
 
-/// The dense combination in double, scalar.
-std::uint64_t dense_double(int rule, const double* const a[3], const double* const b[3], double* const c[3], double* k,
-                           std::size_t begin, std::size_t end);
+/// The dense combination in double, scalar. Answers how many pairs were in total conflict.
+std::uint64_t dense_double(int rule, const DoublePlanes&, std::size_t begin, std::size_t end);
 
 const KernelTable& scalar_table() noexcept;
 /// By name: "scalar", "avx2", "avx512", "auto" (the widest that can run); nullptr when it cannot run here.

@@ -128,6 +128,13 @@ TEST_F(BadInput, Combine) {
   expect_refused({"combine", "--rule", "pcr5"}, "(standard input): is empty");
   expect_refused({"combine", "--rule", "magic", "--in", rows}, "known: dempster");
   expect_refused({"combine", "--rule", "pcr5", "--in", rows, "-o", rows + "/x"}, "cannot be written");
+  expect_refused({"combine", "--rule", "pcr5", "--in", rows, "--sources", "3"}, "rows.csv:1:e3");
+  expect_refused({"combine", "--rule", "pcr5", "--in", rows, "--sources", "1"}, "--sources: 1");
+  for (const char* command : {"run", "compare"}) {
+    const char* option = std::string(command) == "run" ? "--rule" : "--rules";
+    expect_refused({command, "default", "-o", dir.at("o"), option, "conjunctive"}, "keeps no plane");
+    expect_refused({command, "default", "-o", dir.at("o"), option, "disjunctive"}, "use it with combine");
+  }
 }
 TEST_F(BadInput, Model) {
   expect_refused({"model", "magic", "--reading", "1", "--at", "1,0"}, "known: hughes1992");

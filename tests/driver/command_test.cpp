@@ -2,6 +2,8 @@
 // Each command on good input: files, columns, and the counts in the report.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -25,8 +27,8 @@ TEST(Map, WritesItsFilesAndCountsWhatItLeftOut) {
   const TempDir dir;
   const Ran ran = evigrid({"map", dir.write("odd.log", odd_log()), "-o", dir.at("out"), "--threads", "2"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  EXPECT_EQ(dir.names(), (Names{"odd.log", "out", "out/map.evigrid", "out/map.pgm", "out/map.png", "out/map.yaml", "out/masses.npy",
-                                "out/report.json"}));
+  EXPECT_EQ(dir.names(), (Names{"odd.log", "out", "out/map.evigrid", "out/map.pgm", "out/map.png", "out/map.yaml",
+                                "out/masses.npy", "out/report.json"}));
   const Json r = Json::parse(slurp(dir.at("out/report.json")));
   EXPECT_EQ(r["readings_used"], 7 * 180 - 5);
   EXPECT_EQ(r["readings_refused"], Json({{"not_a_number", 1},
@@ -171,6 +173,57 @@ TEST(Combine, OneRowForOneRowFromFileAndStandardInput) {
       evigrid({"combine", "--rule", "dempster", "--double", "--in", dir.write("a.csv", csv), "-o", dir.at("b.csv")});
   EXPECT_EQ(file.code, 0);
   EXPECT_EQ(slurp(dir.at("b.csv")), piped.out);
+}
+
+std::vector<std::array<double, 5>> rows_of(const Ran& ran) {
+  std::vector<std::array<double, 5>> out;
+  std::istringstream lines(ran.out);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    auto& r = out.emplace_back();
+    EXPECT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &r[0], &r[1], &r[2], &r[3], &r[4]), 5) << line;
+  }
+  return out;
+}
+
+// Smarandache and Dezert: three sources, conjunctively .537, .09, .03 and k = .343.
+TEST(Combine, ThreeSourcesOneAfterTheOther) {
+  const std::string csv = "e1,o1,e2,o2,e3,o3\n.6,.1,.5,.3,.4,.1\n";
+  const Ran ran = evigrid({"combine", "--rule", "conjunctive", "--sources", "3", "--double"}, csv);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto rows = rows_of(ran);
+  ASSERT_EQ(rows.size(), 1u);
+  const std::array<double, 4> want{.537, .09, .03, .343};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(rows[0][i], want[i], 1e-12) << i;
+  EXPECT_NEAR(rows[0][4], .23 + (.47 * .1 + .17 * .4), 1e-12);  // both steps' k
+  for (const char* rule : {"pcr5", "yager", "fuzzy", "cautious"}) {
+    EXPECT_EQ(evigrid({"combine", "--rule", rule, "--sources", "3"}, csv).code, 0) << rule;
+  }
+}
+
+// Three sources of (.6, 0, .4) and two of (0, .6, .4): the mean (.36, .24, .4), four times with itself.
+TEST(Combine, MurphyTakesTheMeanOfAllSources) {
+  const std::string csv = "e1,o1,e2,o2,e3,o3,e4,o4,e5,o5\n.6,0,0,.6,.6,0,0,.6,.6,0\n";
+  const Ran ran = evigrid({"combine", "--rule", "murphy", "--sources", "5", "--double"}, csv);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const double e = std::pow(.76, 5) - std::pow(.4, 5), o = std::pow(.64, 5) - std::pow(.4, 5), u = std::pow(.4, 5);
+  const auto rows = rows_of(ran);
+  EXPECT_NEAR(rows.at(0)[0], e / (e + o + u), 1e-14);
+  EXPECT_NEAR(rows.at(0)[1], o / (e + o + u), 1e-14);
+  const Ran two = evigrid({"combine", "--rule", "murphy", "--double"}, "e1,o1,e2,o2,c2\n.6,0,.3,.1,.5\n");
+  EXPECT_EQ(two.code, 0);  // c2 dropped: the second source is (.6, .2, .2)
+  const double a = .6, b = .1, v = .3, sum = 1 - 2 * a * b;
+  EXPECT_NEAR(rows_of(two).at(0)[0], a * (a + 2 * v) / sum, 1e-14);
+}
+
+TEST(Combine, ParadoxicalMassesAreReadAndWritten) {
+  const std::string csv = "e1,o1,c1,e2,o2,c2\n.3,.2,.1,.1,.4,.2\n";
+  const auto conjunctive = rows_of(evigrid({"combine", "--rule", "dsmc", "--double"}, csv));
+  EXPECT_NEAR(conjunctive.at(0)[3], .1 + .2 - .02 + (.3 * .4 + .2 * .1), 1e-15);
+  const auto hybrid = rows_of(evigrid({"combine", "--rule", "dsmh", "--double"}, csv));
+  EXPECT_NEAR(hybrid.at(0)[0], .3 * (.1 + .3) + .4 * .1 + .3 * .2 + .1 * .1, 1e-15);
+  EXPECT_EQ(hybrid.at(0)[3], 0);
 }
 
 TEST(Model, PublishedRowOfLi2014) {

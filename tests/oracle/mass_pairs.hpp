@@ -14,18 +14,20 @@
 #include <vector>
 
 #include "evigrid/combine.hpp"
-#include "tests/oracle/set_algebra.hpp"
+#include "tests/oracle/set_rules.hpp"
 
 namespace oracle {
 
 template <class T>
 struct MassArray {
-  std::vector<T> e, o, u;
-  explicit MassArray(std::size_t n = 0) : e(n), o(n), u(n) {}
+  std::vector<T> e, o, u, c;  // c may stay empty
+  explicit MassArray(std::size_t n = 0, bool with_c = false) : e(n), o(n), u(n), c(with_c ? n : 0) {}
   void push(T me, T mo, T mu) { e.push_back(me), o.push_back(mo), u.push_back(mu); }
   [[nodiscard]] std::size_t size() const { return e.size(); }
-  evigrid::Planes<T> planes() { return {e.data(), o.data(), u.data()}; }
-  [[nodiscard]] evigrid::Planes<const T> view() const { return {e.data(), o.data(), u.data()}; }
+  evigrid::Planes<T> planes() { return {e.data(), o.data(), u.data(), c.empty() ? nullptr : c.data()}; }
+  [[nodiscard]] evigrid::Planes<const T> view() const {
+    return {e.data(), o.data(), u.data(), c.empty() ? nullptr : c.data()};
+  }
   friend bool operator==(const MassArray&, const MassArray&) = default;
 };
 
@@ -116,9 +118,26 @@ Pairs<T> corner_pairs() {
   return out;
 }
 
+/// The same with a mass on empty ∩ occupied: a power of two of each mass moves there, so that sums stay as exact as
+/// they were; now and then all of it, or none.
+template <class T>
+Pairs<T> open_pairs(std::size_t n, unsigned seed) {
+  Pairs<T> out = random_pairs<T>(n, seed);
+  std::mt19937_64 engine(seed + 1);
+  for (MassArray<T>* m : {&out.a, &out.b})
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto kind = engine() % 16;
+      const T left = kind == 0 ? T(0) : kind < 4 ? T(1) : kind < 8 ? T(0.5) : kind < 12 ? T(0.75) : T(0.25);
+      const T c = (T(1) - left) * (m->e[i] + m->o[i] + m->u[i]);
+      m->e[i] *= left, m->o[i] *= left, m->u[i] *= left;
+      m->c.push_back(c);
+    }
+  return out;
+}
+
 /// What exact arithmetic answers, rounded to long double at the very end.
 struct Exact {
-  std::vector<std::array<long double, 4>> eouk;
+  std::vector<std::array<long double, 5>> eouck;
   std::uint64_t total_conflicts = 0;
 };
 
@@ -131,18 +150,19 @@ inline long double to_long_double(const mpq_class& q) {
 template <class T>
 Exact exact_results(evigrid::Rule rule, const Pairs<T>& pairs) {
   Exact out;
-  out.eouk.reserve(pairs.size());
+  out.eouck.reserve(pairs.size());
   const auto belief = [](const MassArray<T>& m, std::size_t i) {
     Belief<mpq_class, 3> b;
     b[kEmpty] = static_cast<double>(m.e[i]);
     b[kOccupied] = static_cast<double>(m.o[i]);
     b[kUnknown] = static_cast<double>(m.u[i]);
+    b[kBoth] = m.c.empty() ? 0.0 : static_cast<double>(m.c[i]);
     return b;
   };
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto r = combine<mpq_class, 3>(rule, cell_frame(), belief(pairs.a, i), belief(pairs.b, i));
-    out.eouk.push_back({to_long_double(r.m[kEmpty]), to_long_double(r.m[kOccupied]), to_long_double(r.m[kUnknown]),
-                        to_long_double(r.conflict)});
+    out.eouck.push_back({to_long_double(r.m[kEmpty]), to_long_double(r.m[kOccupied]), to_long_double(r.m[kUnknown]),
+                         to_long_double(r.m[kBoth]), to_long_double(r.conflict)});
     if (r.total_conflict) ++out.total_conflicts;
   }
   return out;

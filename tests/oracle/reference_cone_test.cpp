@@ -32,7 +32,7 @@ TEST_P(ReferenceCone, EveryHeadingByHalfDegrees) {
   for (double aperture_deg : {15.0, 25.0, 30.0}) {
     Difference all;
     for (int half = 0; half < 720; ++half) {
-      const Rule rule = evigrid::all_rules()[half % evigrid::kRuleCount];
+      const Rule rule = evigrid::map_rules()[half % evigrid::kMapRuleCount];
       const float range_m = 0.4F + 0.0061F * static_cast<float>(half);
       SCOPED_TRACE(testing::Message() << aperture_deg << " deg, heading " << half * 0.5 << ' ' << name(rule));
       all.merge(once({.cell_m = 0.1, .rule = rule}, sonar(GetParam(), aperture_deg),
@@ -103,7 +103,7 @@ Difference drive_ring(Model model, Rule rule, double aperture_deg, double reliab
 }
 
 TEST_P(ReferenceCone, RingScansInARowUnderEveryRule) {
-  for (Rule rule : evigrid::all_rules())
+  for (Rule rule : evigrid::map_rules())
     for (double reliability : {1.0, 0.9}) {
       const Difference d = drive_ring(GetParam(), rule, 25, reliability, {0.2, 0.1, 0.05}, 0.1, 30);
       SCOPED_TRACE(testing::Message() << name(rule) << " reliability " << reliability);
@@ -114,7 +114,7 @@ TEST_P(ReferenceCone, RingScansInARowUnderEveryRule) {
 }
 
 TEST_P(ReferenceCone, FiveSinglePassesUnderEveryRuleAndAperture) {
-  for (Rule rule : evigrid::all_rules())
+  for (Rule rule : evigrid::map_rules())
     for (double aperture_deg : {15.0, 30.0}) {
       SCOPED_TRACE(testing::Message() << name(rule) << ' ' << aperture_deg);
       expect_within_bounds(drive_ring(GetParam(), rule, aperture_deg, 0.95, {-3.3, 8.1, 2}, 0.05, 5));
@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(Models, ReferenceCone, testing::Values(Model::hughes199
 
 // A certain cell against certain evidence: Dempster answers with ignorance and counts it, the others share.
 TEST(ReferenceCell, TotalConflictIsAnsweredAndCountedAlike) {
-  for (Rule rule : evigrid::all_rules()) {
+  for (Rule rule : evigrid::map_rules()) {
     SCOPED_TRACE(std::string(name(rule)));
     Sensor s = sonar(Model::li2014, 15);
     s.reliability = 1;
@@ -165,7 +165,7 @@ TEST(ReferenceCell, TotalConflictIsAnsweredAndCountedAlike) {
 
 // Only the division by the own sum and the floors of the state keep a cell normalised under an endless run.
 TEST(ReferenceCell, SumsStayNearOneOverHundredThousandReadings) {
-  for (Rule rule : evigrid::all_rules()) {
+  for (Rule rule : evigrid::map_rules()) {
     evigrid::Map map({.cell_m = 0.5, .rule = rule});
     const auto id = map.add(sonar(Model::li2014, 15));
     double worst = 0;

@@ -81,7 +81,7 @@ TEST(ReferenceLog, EightSonarRingLog) {
   }
   ASSERT_EQ(way.size(), ranges_m.size());
   ASSERT_GT(way.size(), 200U);
-  for (evigrid::Rule rule : evigrid::all_rules()) {
+  for (evigrid::Rule rule : evigrid::map_rules()) {
     SCOPED_TRACE(std::string(name(rule)));
     Both both({.cell_m = 0.1, .rule = rule});
     std::vector<evigrid::SensorId> ids;

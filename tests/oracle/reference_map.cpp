@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/oracle/set_algebra.hpp"
+#include "tests/oracle/set_rules.hpp"
 
 namespace oracle {
 namespace {

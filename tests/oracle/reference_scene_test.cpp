@@ -15,7 +15,7 @@ TEST(ReferenceScene, EmbeddedRoomUnderEveryRule) {
   const evigrid::raycast::Scene caster(scene.world);
   const auto steps = evigrid::scenes::simulate(scene, caster);
   ASSERT_GT(steps.size(), 400U);
-  for (const evigrid::Rule rule : evigrid::all_rules()) {
+  for (const evigrid::Rule rule : evigrid::map_rules()) {
     Both both({.cell_m = scene.map.cell_m, .rule = rule});
     for (const auto& s : scene.sonars) {
       evigrid::Sensor sonar;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Belief functions on bit-mask focal elements, and the combination rules as their authors define them: sums over all
-// pairs of focal elements, nothing closed-form. A mask is a set of parts of the Venn diagram of the hypotheses; an
-// integrity constraint says which parts are impossible. Runs on any number type (exact rationals, double).
+// Belief functions on bit-mask focal elements (the rules: set_rules.hpp). A mask is a set of parts of the Venn diagram
+// of the hypotheses; an integrity constraint says which parts are impossible. Runs on any number type (exact rationals,
+// double).
 #pragma once
 #include <array>
 #include <vector>
-
-#include "evigrid/types.hpp"
 
 namespace oracle {
 
@@ -25,6 +23,7 @@ template <class T, unsigned Parts>
 struct Combined {
   Belief<T, Parts> m{};
   T conflict = T(0);            ///< product mass on the empty set
+  T made = T(0);                ///< of it what comes from two sets that are not empty themselves
   bool total_conflict = false;  ///< Dempster had nothing to divide by
 };
 
@@ -80,97 +79,11 @@ Combined<T, Parts> conjunctive(const Frame& frame, const Belief<T, Parts>& m1, c
       const T product = m1[x] * m2[y];
       if (frame.is_empty(x & y)) {
         out.conflict += product;
+        if (!frame.is_empty(x) && !frame.is_empty(y)) out.made += product;
       } else {
         out.m[x & y] += product;
       }
     }
-  return out;
-}
-
-/// The conflict as a whole goes to `recipients` in proportion to their column sums m1 + m2; to ignorance where those
-/// are 0.
-template <class T, unsigned Parts>
-void share_by_columns(Combined<T, Parts>& out, const Belief<T, Parts>& m1, const Belief<T, Parts>& m2,
-                      const std::vector<bool>& recipients) {
-  T columns(0);
-  for (unsigned x = 0; x < m1.size(); ++x)
-    if (recipients[x]) columns += T(m1[x] + m2[x]);
-  if (out.conflict == 0) return;
-  if (columns == 0) {
-    out.m.back() += out.conflict;
-    return;
-  }
-  for (unsigned x = 0; x < m1.size(); ++x) {
-    if (!recipients[x]) continue;
-    const T column = m1[x] + m2[x];
-    if (column != 0) out.m[x] += T(out.conflict * T(column / columns));
-  }
-}
-
-/// PCR2: the sets involved in the conflict are those that meet a set of the other source in nothing.
-template <class T, unsigned Parts>
-std::vector<bool> involved(const Frame& frame, const Belief<T, Parts>& m1, const Belief<T, Parts>& m2) {
-  std::vector<bool> out(m1.size(), false);
-  for (unsigned x = 0; x < m1.size(); ++x)
-    for (unsigned y = 0; y < m2.size(); ++y) {
-      if (!frame.is_empty(x & y) || m1[x] == 0 || m2[y] == 0) continue;
-      out[x] = out[y] = true;
-    }
-  return out;
-}
-
-/// GERM-PCR2: the non-empty sets that exclude one of the hypotheses, whoever names them.
-template <class T, unsigned Parts>
-std::vector<bool> exclusive(const Frame& frame) {
-  std::vector<bool> out(1U << Parts, false);
-  for (unsigned x = 1; x < out.size(); ++x)
-    for (unsigned h : frame.hypotheses)
-      if (!frame.is_empty(x) && frame.is_empty(x & h)) out[x] = true;
-  return out;
-}
-
-/// PCR5: every conflicting product goes back to the two sets that made it, in proportion to what each put in.
-template <class T, unsigned Parts>
-void share_by_products(Combined<T, Parts>& out, const Frame& frame, const Belief<T, Parts>& m1,
-                       const Belief<T, Parts>& m2) {
-  for (unsigned x = 0; x < m1.size(); ++x)
-    for (unsigned y = 0; y < m2.size(); ++y) {
-      if (!frame.is_empty(x & y) || m1[x] == 0 || m2[y] == 0) continue;
-      const T product = m1[x] * m2[y], sum = m1[x] + m2[y];
-      out.m[x] += T(product * T(m1[x] / sum));
-      out.m[y] += T(product * T(m2[y] / sum));
-    }
-}
-
-/// One combination by `rule`, divided by its own sum. `least`: Dempster's sum below which it answers with ignorance.
-template <class T, unsigned Parts>
-Combined<T, Parts> combine(evigrid::Rule rule, const Frame& frame, const Belief<T, Parts>& first,
-                           const Belief<T, Parts>& second, const T& least = T(0)) {
-  using evigrid::Rule;
-  Combined<T, Parts> out;
-  if (rule == Rule::dempster) {
-    out = conjunctive<T, Parts>(frame, drop_empty<T, Parts>(frame, first), drop_empty<T, Parts>(frame, second));
-    if (!divide_by_sum<T, Parts>(out.m, least)) {
-      out.m.fill(T(0));
-      out.m.back() = T(1);
-      out.total_conflict = true;
-    }
-    return out;
-  }
-  if (rule == Rule::germ_pcr2) {
-    out = conjunctive<T, Parts>(frame, first, second);
-    share_by_columns<T, Parts>(out, first, second, exclusive<T, Parts>(frame));
-  } else {
-    const Belief<T, Parts> m1 = give_back_empty<T, Parts>(frame, first);
-    const Belief<T, Parts> m2 = give_back_empty<T, Parts>(frame, second);
-    out = conjunctive<T, Parts>(frame, m1, m2);
-    if (rule == Rule::pcr2) {
-      share_by_columns<T, Parts>(out, m1, m2, involved<T, Parts>(frame, m1, m2));
-    } else {
-      share_by_products<T, Parts>(out, frame, m1, m2);
-    }
-  }
-  divide_by_sum<T, Parts>(out.m);
   return out;
 }
 

@@ -72,7 +72,7 @@ std::string message_of(const std::string& bytes, const LoadOptions& options = {}
 
 TEST(SavedMap, GoesOnFusingAsIfItHadNeverBeenSaved) {
   const auto d = testing::drive(Model::li2014, 40, 5);
-  for (const Rule rule : all_rules()) {
+  for (const Rule rule : map_rules()) {
     for (const bool keep : {true, false}) {
       const MapParams params{.cell_m = 0.05, .rule = rule, .keep_conflict = keep};
       const Map whole = driven(*d, params, 40);

@@ -2,6 +2,7 @@
 // Bad parameters are listed by name and reason, all at once.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -62,6 +63,20 @@ TEST(Params, ConstructionThrowsWithTheNames) {
   Sensor far;
   far.max_range_m = 1000;
   EXPECT_THROW(map.add(far), std::invalid_argument);
+}
+
+TEST(Params, MapsTakeOnlyTheRulesTheyHavePlanesFor) {
+  EXPECT_EQ(map_rules().size(), static_cast<std::size_t>(kMapRuleCount));
+  for (const Rule r : all_rules()) {
+    const auto errors = check(MapParams{.rule = r});
+    const bool of_maps = std::find(map_rules().begin(), map_rules().end(), r) != map_rules().end();
+    EXPECT_EQ(errors.empty(), of_maps) << name(r);
+    EXPECT_EQ(why_not_in_maps(r).empty(), of_maps) << name(r);
+    if (of_maps) continue;
+    EXPECT_EQ(errors[0].field, "map.rule");
+    EXPECT_NE(errors[0].reason.find(name(r)), std::string::npos);
+    EXPECT_THROW(Map({.rule = r}, make_serial_executor()), std::invalid_argument);
+  }
 }
 
 TEST(Params, NamesRoundTrip) {

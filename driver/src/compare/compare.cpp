@@ -57,7 +57,9 @@ std::vector<Subject> read_subjects(const CompareOptions& o) {
 }
 
 std::string name_of(const CompareOptions& o) {
-  const std::string path = !o.inputs.empty() ? o.inputs.front() : !o.world.world.empty() ? o.world.world : "default scene";
+  const std::string path = !o.inputs.empty()        ? o.inputs.front()
+                           : !o.world.world.empty() ? o.world.world
+                                                    : "default scene";
   return std::filesystem::path(path).filename().string();
 }
 
@@ -125,7 +127,7 @@ std::vector<std::string> figures(const CompareRow& r) {
 void compare(const CompareOptions& given) {
   const auto start = Clock::now();
   CompareOptions o = given;
-  for (const std::string& rule : o.rules) parse_rule(rule);
+  for (const std::string& rule : o.rules) parse_map_rule(rule);
   std::vector<std::string> sonar_models;
   for (const std::string& model : o.models) {
     if (is_sonar_model(model)) sonar_models.push_back(model);
@@ -169,15 +171,13 @@ void compare(const CompareOptions& given) {
   std::vector<Panel> panels;
   // The sheet shows the world; readings that leak far outside of it must not make it small.
   const SheetScale scale = sheet_scale(truth ? CellRect{truth->x, truth->y, truth->width, truth->height} : all,
-                  results.size() < kMostColumns ? kFewPanel_px : kPanel_px);
+                                       results.size() < kMostColumns ? kFewPanel_px : kPanel_px);
   if (truth) panels.push_back({"truth", {"dark: surfaces  pale: free  grey: out of sight"}, thumbnail(*truth, scale)});
   for (const Result& r : results) {
     rows.push_back(r.row);
     panels.push_back({caption(r.row), figures(r.row), thumbnail(r.layers, scale)});
   }
-  const std::string title = fmt::format("evigrid compare: {}, cell {:g} m",
-                                        name_of(o),
-                                        results.front().layers.cell_m);
+  const std::string title = fmt::format("evigrid compare: {}, cell {:g} m", name_of(o), results.front().layers.cell_m);
   const int count = static_cast<int>(panels.size());
   const int columns = count <= kMostColumns ? count : count % 3 == 0 ? 3 : kMostColumns;
   out.write("sheet.png", png(draw_sheet(title, panels, columns)), {});
@@ -189,7 +189,8 @@ void compare(const CompareOptions& given) {
   out.write("report.json", bytes);
   if (!o.mapping.json.empty() && o.mapping.json != "-") out.write_outside(o.mapping.json, bytes);
   out.commit();
-  std::cout << (o.mapping.json == "-" ? bytes : to_markdown(rows) + "Look at " + (out.path() / "sheet.png").string() + "\n");
+  std::cout << (o.mapping.json == "-" ? bytes
+                                      : to_markdown(rows) + "Look at " + (out.path() / "sheet.png").string() + "\n");
 }
 
 }  // namespace evigrid::driver

@@ -36,9 +36,29 @@ struct Mass {
   friend bool operator==(const Mass&, const Mass&) = default;
 };
 
-/// Combination rules. PCR2 and PCR5: Smarandache & Dezert; GERM-PCR2: Li et al. 2014.
-enum class Rule : std::uint8_t { dempster, pcr2, pcr5, germ_pcr2 };
-inline constexpr int kRuleCount = 4;
+/// Combination rules (docs/maths.md, with sources). The first kMapRuleCount can be the rule of a map; the others leave
+/// what a map has no plane for and work in combine().
+enum class Rule : std::uint8_t {
+  dempster,
+  pcr2,
+  pcr5,
+  germ_pcr2,
+  yager,
+  dubois_prade,
+  dsmh,
+  pcr1,
+  pcr3,
+  pcr4,
+  pcr6,
+  conjunctive,
+  dsmc,
+  disjunctive,
+  cautious,
+  murphy,
+  bayes,
+  fuzzy
+};
+inline constexpr int kRuleCount = 18, kMapRuleCount = 11;
 
 /// Inverse sensor models. hughes1992 and li2014 are sonar cones, beam is a fan of laser beams.
 enum class Model : std::uint8_t { hughes1992, li2014, beam };
@@ -59,6 +79,12 @@ std::optional<Rule> rule_from_name(std::string_view) noexcept;
 std::optional<Model> model_from_name(std::string_view) noexcept;
 std::optional<Kernel> kernel_from_name(std::string_view) noexcept;
 std::span<const Rule> all_rules() noexcept;
+std::span<const Rule> map_rules() noexcept;
+/// The first rule that gives the same for two sources on this frame: itself but for pcr3 (pcr2), pcr6 (pcr5),
+/// dubois_prade (yager) and dsmc (conjunctive).
+Rule same_as(Rule) noexcept;
+/// Empty for the rules of maps, else the reason.
+std::string_view why_not_in_maps(Rule) noexcept;
 std::span<const Model> all_models() noexcept;
 
 /// Raised when a change alters the bits of a map; part of every report.

@@ -57,6 +57,10 @@ std::vector<ParamError> check(const Sensor& s) {
 std::vector<ParamError> check(const MapParams& p) {
   std::vector<ParamError> errors;
   check_rows(kMapRows, p, errors);
+  if (const auto why = why_not_in_maps(p.rule); !why.empty()) {
+    errors.push_back(
+        {"map.rule", "cannot be " + std::string(name(p.rule)) + ": " + std::string(why) + "; use it with combine"});
+  }
   return errors;
 }
 

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0
+// PCR1 and PCR4 of the avx2 table.
+#include "kernels/row/target_avx2.hpp"
+// After the target.
+#include "kernels/row/fill_pcr14.hpp"

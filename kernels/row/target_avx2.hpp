@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What makes a file one of the avx2 target's. The target is set for that file's own functions only (pragma, not a
+// compiler flag), so that no inline function of the standard library is ever compiled for it and merged into the
+// baseline program. Included first.
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include "hwy/detect_targets.h"
+#undef HWY_TARGET
+#define HWY_TARGET HWY_AVX2
+#define EVIGRID_TARGET_NAMESPACE avx2
+#define EVIGRID_TARGET_UNROLL 4
+#define EVIGRID_LAMBDA HWY_ATTR
+#include "kernels/cell/lane_highway.hpp"
