@@ -196,7 +196,7 @@ TEST(Combine, ThreeSourcesOneAfterTheOther) {
   ASSERT_EQ(rows.size(), 1u);
   const std::array<double, 4> want{.537, .09, .03, .343};
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(rows[0][i], want[i], 1e-12) << i;
-  EXPECT_NEAR(rows[0][4], .23 + (.47 * .1 + .17 * .4), 1e-12);  // both steps' k
+  EXPECT_NEAR(rows[0][4], .23 + (.57 * .1 + .14 * .4), 1e-12);  // both steps' k
   for (const char* rule : {"pcr5", "yager", "fuzzy", "cautious"}) {
     EXPECT_EQ(evigrid({"combine", "--rule", rule, "--sources", "3"}, csv).code, 0) << rule;
   }
