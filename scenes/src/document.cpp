@@ -194,6 +194,11 @@ std::vector<std::string> Table::keys() const {
   return names;
 }
 
+/// A slip of the pen or a forgotten unit, not another word altogether.
+static bool alike(std::string_view given, std::string_view known) {
+  return known.starts_with(given) || distance(given, known) <= std::max<std::size_t>(2, given.size() / 2);
+}
+
 void Table::refuse_unknown_keys() const {
   for (const auto& [key, node] : *table_) {
     const std::string_view name = key.str();
@@ -202,8 +207,7 @@ void Table::refuse_unknown_keys() const {
       return distance(name, l) < distance(name, r);
     });
     std::string message = "is unknown";
-    if (nearest != known_.end() && 2 * distance(name, *nearest) <= name.size())  // else it is no slip of the pen
-      message += "; did you mean " + *nearest + "?";
+    if (nearest != known_.end() && alike(name, *nearest)) message += "; did you mean " + *nearest + "?";
     const auto line = std::max<toml::source_index>(1, key.source().begin.line);
     throw SceneError(file_of(key.source()) + ":" + std::to_string(line) + ": " + name_of(name) + ": " + message);
   }

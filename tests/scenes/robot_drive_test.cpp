@@ -242,7 +242,7 @@ TEST(Trajectory, BadFields) {
       {scene_with("[[mover]]\nwaypoints = [[0, 1]]\nloop = 1\n" + box),
        "s.toml:10: mover[0].loop: must be true or false"},
       {scene_with("[[mover]]\nwaypoints = [[0, 1]]\nperiod_s = 1\n" + box),
-       "s.toml:10: mover[0].period_s: is unknown; did you mean speed_m_s?"},
+       "s.toml:10: mover[0].period_s: is unknown"},
       {scene_with("[[mover]]\nwaypoints = [[0, 1]]\n" + box + "material = \"fur\"\n"),
        "s.toml:14: mover[0].boxes[0].material: there is no [material.fur]"},
   };
