@@ -50,7 +50,7 @@ void map_log(const Args& args) {
   nlohmann::ordered_json origin = log_origin(log);
   origin["input"] = args.logs;
   if (!args.scans.empty()) origin["scans_chosen"] = args.scans;
-  write_results(out, log, fused, args.mapping, start, origin);
+  write_results(out, log, fused, render_layers(fused.map, args.mapping.max_image_mb), args.mapping, start, origin);
 }
 
 }  // namespace

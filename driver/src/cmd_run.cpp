@@ -42,13 +42,15 @@ nlohmann::ordered_json odometry_report(const Simulated& run) {
 }
 
 /// Scores the map and draws truth.png; a world that cannot be scored is no reason to lose its map.
-nlohmann::ordered_json against_truth(OutDir& out, const scenes::Scene& scene, const Map& map, const MappingOptions& o) {
-  const SceneTruth truth = scene_truth(scene, map.params().cell_m);
+nlohmann::ordered_json against_truth(OutDir& out, const scenes::Scene& scene, const Layers& layers,
+                                     const MappingOptions& o) {
+  const SceneTruth truth = scene_truth(scene, layers.cell_m);
   if (!truth.grid) return {{"skipped", truth.why_not}};
-  const Layers layers = render_layers(map, o.max_image_mb);
-  nlohmann::ordered_json report = to_json(score(layers, *truth.grid));
+  const Overlay both = overlay(layers, *truth.grid);
+  const Score found = score(layers, *truth.grid, both);
+  nlohmann::ordered_json report = to_json(found);
   try {
-    out.write("truth.png", png(draw_truth(layers, *truth.grid, scene.name, o.max_image_mb)), {});
+    out.write("truth.png", png(draw_truth(both, found, layers.cell_m, scene.name, o.max_image_mb)), {});
   } catch (const InputError& large) {
     report["truth.png"] = large.what();
   }
@@ -73,8 +75,9 @@ void run_scene(Args args, bool rule_given) {
                                {"seed", input.scene.trajectory.seed},
                                {"cast_s", simulated.cast_s}};
   if (input.scene.odometry.used) extra["odometry"] = odometry_report(simulated);
-  extra["truth"] = against_truth(out, input.scene, fused.map, o);
-  write_results(out, simulated.log, fused, o, start, extra);
+  const Layers layers = render_layers(fused.map, o.max_image_mb);
+  extra["truth"] = against_truth(out, input.scene, layers, o);
+  write_results(out, simulated.log, fused, layers, o, start, extra);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "evigrid/evigrid.hpp"
 #include "log/log.hpp"
 #include "options.hpp"
+#include "out/layers.hpp"
 #include "out/out_dir.hpp"
 
 namespace evigrid::driver {
@@ -39,8 +40,9 @@ bool holds_both_kinds(const Log& log);
 
 Fused fuse(const Log& log, const MappingOptions& options, Plan plan);
 
-/// report.json, masses.npy, map.pgm, map.yaml, map.png, map.evigrid and what the options add: staged in `out` and committed together. `extra` is merged in.
-void write_results(OutDir& out, const Log& log, const Fused& fused, const MappingOptions& options,
+/// report.json, masses.npy, map.pgm, map.yaml, map.png, map.evigrid and what the options add: staged in `out` and
+/// committed together. `layers` are the map's; `extra` is merged into the report.
+void write_results(OutDir& out, const Log& log, const Fused& fused, const Layers& layers, const MappingOptions& options,
                    Clock::time_point start, const nlohmann::ordered_json& extra);
 
 }  // namespace evigrid::driver

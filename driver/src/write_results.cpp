@@ -84,9 +84,8 @@ Json make_report(const Log& log, const Fused& f, const MappingOptions& o, const 
 
 }  // namespace
 
-void write_results(OutDir& out, const Log& log, const Fused& fused, const MappingOptions& options,
-                   Clock::time_point start, const Json& extra) {
-  const Layers layers = render_layers(fused.map, options.max_image_mb);
+void write_results(OutDir& out, const Log& log, const Fused& fused, const Layers& layers,
+                   const MappingOptions& options, Clock::time_point start, const Json& extra) {
   if (layers.rect.empty()) throw InputError("no reading could be used: all were refused, the map is empty");
   Json report = make_report(log, fused, options, layers);
   std::vector<Pose2> path;

@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "picture/furniture.hpp"
-#include "score/score.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -28,11 +27,10 @@ Rgb colour_of(scenes::TruthCell truth, Decision said, bool visible) {
 
 }  // namespace
 
-Canvas draw_truth(const Layers& map, const scenes::TruthGrid& truth, const std::string& name, int cap_mb) {
-  const Overlay o = overlay(map, truth);
+Canvas draw_truth(const Overlay& o, const Score& s, double cell_m, const std::string& name, int cap_mb) {
   MapFrame frame;
   frame.rect = o.rect;
-  frame.cell_m = map.cell_m;
+  frame.cell_m = cell_m;
   frame.scale = scale_for(o.rect, kSide_px);
   const double width = std::max<double>(static_cast<double>(o.rect.width) * frame.scale, kLeastWidth_px) + 2 * kMargin_px,
                height = static_cast<double>(o.rect.height) * frame.scale + kHead_px + 2 * kLine_px + 2 * kMargin_px;
@@ -40,12 +38,11 @@ Canvas draw_truth(const Layers& map, const scenes::TruthGrid& truth, const std::
   Canvas canvas(static_cast<int>(width), static_cast<int>(height), kPaper);
   frame.left = (canvas.width() - frame.width_px()) / 2;
   frame.top = kHead_px;
-  const Score s = score(map, truth);
   draw_head(canvas, {fmt::format("evigrid: {}, the map against the true world", name),
                      fmt::format("strict: precision {:.3f}, recall {:.3f}, mistaken {:.4f}; within one cell: {:.3f}, "
                                  "{:.3f}, {:.4f}; cell {:g} m",
                                  s.strict.precision, s.strict.recall, s.strict.mistaken_rate, s.near.precision,
-                                 s.near.recall, s.near.mistaken_rate, map.cell_m)});
+                                 s.near.recall, s.near.mistaken_rate, cell_m)});
   draw_cells(canvas, frame, [&](std::size_t i) { return colour_of(o.truth[i], o.map[i], visible_wall(o, i)); });
   int x = kMargin_px, y = frame.top + frame.height_px() + kMargin_px;
   for (const auto& [colour, label] : {std::pair{kFound, "wall found"}, {kMissed, "wall missed"},
@@ -57,7 +54,7 @@ Canvas draw_truth(const Layers& map, const scenes::TruthGrid& truth, const std::
        {std::pair{kRightlyEmpty, "empty"}, {kUnknown, "free, not known"}, {kBehind, "wall out of sight"}, {kSolid, "out of sight"}}) {
     x = draw_swatch(canvas, x, y, colour, label);
   }
-  draw_scale_bar(canvas, canvas.width() - kMargin_px, y, frame.scale / map.cell_m);
+  draw_scale_bar(canvas, canvas.width() - kMargin_px, y, frame.scale / cell_m);
   return canvas;
 }
 

@@ -3,13 +3,13 @@
 #pragma once
 #include <string>
 
-#include "evigrid/scenes/truth.hpp"
-#include "out/layers.hpp"
 #include "picture/canvas.hpp"
+#include "score/score.hpp"
 
 namespace evigrid::driver {
 
 /// Throws InputError naming truth.png when it would be larger than `cap_mb`.
-[[nodiscard]] Canvas draw_truth(const Layers& map, const scenes::TruthGrid& truth, const std::string& name, int cap_mb);
+[[nodiscard]] Canvas draw_truth(const Overlay& overlay, const Score& score, double cell_m, const std::string& name,
+                                int cap_mb);
 
 }  // namespace evigrid::driver

@@ -155,9 +155,11 @@ Overlay overlay(const Layers& map, const scenes::TruthGrid& truth) {
   return out;
 }
 
-Score score(const Layers& map, const scenes::TruthGrid& truth) {
+Score score(const Layers& map, const scenes::TruthGrid& truth) { return score(map, truth, overlay(map, truth)); }
+
+Score score(const Layers& map, const scenes::TruthGrid& truth, const Overlay& both) {
   Score out;
-  count_cells(overlay(map, truth), out);
+  count_cells(both, out);
   Means means;
   const CellRect& m = map.rect;
   for (std::int64_t y = truth.y; y < truth.y + truth.height; ++y) {

@@ -48,6 +48,8 @@ struct Score {
 };
 
 [[nodiscard]] Score score(const Layers& map, const scenes::TruthGrid& truth);
+/// The same where the overlay of both is at hand.
+[[nodiscard]] Score score(const Layers& map, const scenes::TruthGrid& truth, const Overlay& overlay);
 [[nodiscard]] nlohmann::ordered_json to_json(const Score& score);
 
 }  // namespace evigrid::driver
