@@ -2,17 +2,14 @@
 // Images made byte by byte by the tests themselves (no library of the code under test is used), and plans as text: one
 // row a line, the top one first, '#' occupied, '.' free, '?' unknown.
 #pragma once
-#include <unistd.h>
-
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "evigrid/scenes/plan.hpp"
+#include "temp_folder.hpp"
 
 namespace evigrid::scenes {
 
@@ -147,30 +144,6 @@ struct Bmp {
   }
 };
 
-/// A folder of its own, gone afterwards.
-class PlanFolder {
- public:
-  PlanFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "evigrid-plan-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~PlanFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  PlanFolder(const PlanFolder&) = delete;
-  PlanFolder& operator=(const PlanFolder&) = delete;
-
-  [[nodiscard]] std::string at(const std::string& name) const { return (path_ / name).string(); }
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::filesystem::create_directories(std::filesystem::path(at(name)).parent_path());
-    std::ofstream(at(name), std::ios::binary) << bytes;
-    return at(name);
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using PlanFolder = TempFolder;
 
 }  // namespace evigrid::scenes
