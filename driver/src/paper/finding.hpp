@@ -15,8 +15,8 @@ struct Finding {
   std::string published;  ///< as printed, or what the paper claims; empty: the paper gives none
   std::string ours;
   Aim aim = Aim::reported;
-  bool met = false;        ///< of a target
-  std::string obtained;    ///< how ours came about, in a sentence
+  bool met = false;                ///< of a target
+  std::string obtained;            ///< how ours came about, in a sentence
   nlohmann::ordered_json value{};  ///< ours as numbers, for programs
 };
 

@@ -49,7 +49,8 @@ std::string base64(std::span<const std::byte> bytes) {
   out.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     unsigned word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? std::to_integer<unsigned>(bytes[i + k]) : 0);
+    for (std::size_t k = 0; k < 3; ++k)
+      word = word << 8 | (i + k < bytes.size() ? std::to_integer<unsigned>(bytes[i + k]) : 0);
     for (std::size_t k = 0; k < 4; ++k) {
       out += i + k <= bytes.size() ? kLetters[word >> (18 - 6 * k) & 63] : '=';
     }
@@ -106,8 +107,9 @@ void Page::table(const std::vector<std::string>& head, const std::vector<std::ve
 }
 
 void Page::picture(std::span<const std::byte> png_bytes, std::string_view caption) {
-  body_ += fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
-                       escaped(caption), base64(png_bytes), escaped(caption));
+  body_ +=
+      fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
+                  escaped(caption), base64(png_bytes), escaped(caption));
 }
 void Page::begin_row() { body_ += "<div class=\"row\">\n"; }
 void Page::end_row() { body_ += "</div>\n"; }

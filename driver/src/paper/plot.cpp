@@ -48,7 +48,9 @@ std::string svg_plot(const PlotText& text, const std::vector<Series>& series, bo
   x.settle(), y.settle();
   y.high += 0.05 * (y.high - y.low);
   const auto at_x = [&](double v) { return kLeft + (v - x.low) / (x.high - x.low) * (kWidth - kLeft - kRight); };
-  const auto at_y = [&](double v) { return kHeight - kBottom - (v - y.low) / (y.high - y.low) * (kHeight - kTop - kBottom); };
+  const auto at_y = [&](double v) {
+    return kHeight - kBottom - (v - y.low) / (y.high - y.low) * (kHeight - kTop - kBottom);
+  };
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}\" font-family=\"sans-serif\" "
       "font-size=\"12\"><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/><text x=\"{}\" y=\"18\" "
@@ -61,11 +63,13 @@ std::string svg_plot(const PlotText& text, const std::vector<Series>& series, bo
         kLeft, kWidth - kRight, at_y(v), at_y(v), kLeft - 6, at_y(v) + 4, v);
   }
   for (const double v : ticks(x.low, x.high, 8)) {
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>", at_x(v), kHeight - kBottom + 16, v);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>", at_x(v),
+                       kHeight - kBottom + 16, v);
   }
   svg += fmt::format(
       "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2}\" y2=\"{2}\" stroke=\"#1c2430\"/><text x=\"{3}\" y=\"{4}\" "
-      "text-anchor=\"middle\">{5}</text><text transform=\"translate(14 {6}) rotate(-90)\" text-anchor=\"middle\">{7}</text>",
+      "text-anchor=\"middle\">{5}</text><text transform=\"translate(14 {6}) rotate(-90)\" "
+      "text-anchor=\"middle\">{7}</text>",
       kLeft, kWidth - kRight, kHeight - kBottom, (kLeft + kWidth - kRight) / 2, kHeight - 8, escaped(text.x),
       (kTop + kHeight - kBottom) / 2, escaped(text.y));
   double legend_x = kLeft + 8;
@@ -86,10 +90,12 @@ std::string svg_plot(const PlotText& text, const std::vector<Series>& series, bo
         svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>", at_x(px), at_y(py), colour);
       }
     }
-    if (!way.empty()) svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>", way, colour);
+    if (!way.empty())
+      svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>", way, colour);
     if (s.name.empty()) continue;
-    svg += fmt::format("<rect x=\"{:.0f}\" y=\"{}\" width=\"10\" height=\"10\" fill=\"{}\"/><text x=\"{:.0f}\" y=\"{}\">{}</text>",
-                       legend_x, kTop - 8, colour, legend_x + 14, kTop + 1, escaped(s.name));
+    svg += fmt::format(
+        "<rect x=\"{:.0f}\" y=\"{}\" width=\"10\" height=\"10\" fill=\"{}\"/><text x=\"{:.0f}\" y=\"{}\">{}</text>",
+        legend_x, kTop - 8, colour, legend_x + 14, kTop + 1, escaped(s.name));
     legend_x += 30 + 7.0 * static_cast<double>(s.name.size());
   }
   return svg + "</svg>";

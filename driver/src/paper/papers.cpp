@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "paper/runs.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+constexpr std::array kPapers{
+    Paper{"hughes1992", "Ultrasonic robot localization using Dempster-Shafer theory", true, run_hughes1992},
+};
+
+}  // namespace
+
+std::span<const Paper> papers() noexcept { return kPapers; }
+
+}  // namespace evigrid::driver

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// One function a paper; each in a file of its name.
+#pragma once
+#include "paper/paper.hpp"
+
+namespace evigrid::driver {
+
+/// Hughes & Murphy 1992: move-to-station.
+PaperResult run_hughes1992(const PaperOptions&);
+
+}  // namespace evigrid::driver
