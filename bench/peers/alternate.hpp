@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Competitors taking turns on the same slices of work in one process. A virtual machine's speed drifts by half within
+// Competitors taking turns on slices of the same work in one process. A virtual machine's speed drifts by half within
 // seconds, so a ratio is formed within a round, where the turns lie milliseconds apart, and its median is reported.
 #pragma once
 #include <algorithm>
@@ -21,18 +21,20 @@ inline double median(std::vector<double> v) {
 
 struct Competitor {
   std::string name;
+  std::size_t shift;  ///< its slice in round r is (r + shift) mod slices: no one finds what another has just fetched
   std::function<void(std::size_t slice)> prepare;        ///< not timed; may be empty
   std::function<std::uint64_t(std::size_t slice)> turn;  ///< timed; returns the cells it updated
   std::vector<double> seconds{}, cells{};                ///< one entry a round
 };
 
-/// Round r: everyone does slice r mod `slices`, the first to go rotating.
+/// Round r: everyone does one slice, the first to go rotating.
 inline void play_round(std::vector<Competitor>& all, std::size_t round, std::size_t slices) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     Competitor& c = all[(k + round) % all.size()];
-    if (c.prepare) c.prepare(round % slices);
+    const std::size_t slice = (round + c.shift) % slices;
+    if (c.prepare) c.prepare(slice);
     const auto start = std::chrono::steady_clock::now();
-    const std::uint64_t cells = c.turn(round % slices);
+    const std::uint64_t cells = c.turn(slice);
     c.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     c.cells.push_back(static_cast<double>(cells));
   }
