@@ -14,6 +14,11 @@ NOT_FIGURES = {"family_index", "per_family_instance_index", "repetitions", "repe
                "real_time", "cpu_time"}
 
 
+def rounded(x):
+    """Six digits are more than any run repeats."""
+    return float(f"{x:.6g}") if isinstance(x, float) else x
+
+
 def plain_name(name):
     """Without what Google Benchmark hangs on: iterations, kind of time."""
     return re.sub(r"/(iterations:\d+|manual_time|real_time|process_time|repeats:\d+)(?=/|$)", "", name)
@@ -33,10 +38,10 @@ def read_google(path):
             row["error"] = b.get("error_message", "failed")
             continue
         values = row["values"]
-        values.setdefault("seconds", []).append(b["real_time"] * SECONDS[b["time_unit"]])
+        values.setdefault("seconds", []).append(rounded(b["real_time"] * SECONDS[b["time_unit"]]))
         for key, value in b.items():
             if isinstance(value, (int, float)) and not isinstance(value, bool) and key not in NOT_FIGURES:
-                values.setdefault(key, []).append(value)
+                values.setdefault(key, []).append(rounded(value))
     return data["context"], list(rows.values())
 
 
@@ -53,16 +58,9 @@ def merge(paths, more_context=()):
     return {"context": context, "rows": rows}
 
 
-def rounded(x):
-    return float(f"{x:.6g}") if isinstance(x, float) else x
-
-
 def save(result, path):
     """A row a line: differences between two results can be read."""
-    lines = []
-    for row in result["rows"]:
-        values = {k: [rounded(x) for x in v] for k, v in row["values"].items()}
-        lines.append(json.dumps({**row, "values": values}, ensure_ascii=False))
+    lines = [json.dumps(row, ensure_ascii=False) for row in result["rows"]]
     text = '{"context": ' + json.dumps(result["context"], indent=1, ensure_ascii=False) + ',\n"rows": [\n'
     pathlib.Path(path).write_text(text + ",\n".join(lines) + "\n]}\n")
 
