@@ -98,7 +98,7 @@ void fill(const TileStore& store, CellRect rect, std::span<T> out, std::ptrdiff_
 /// A Costmap in the form that a cell needs: everything in float.
 struct Costs {
   float free_below, lethal_above, max_unknown, slope;
-  int none, lethal;  // no information; occupied
+  float none, lethal;  // no information; occupied
 
   /// most: the largest cost of what is neither free nor occupied; the least is 1.
   Costs(const Costmap& c, int none_cost, int lethal_cost, int most)
@@ -106,16 +106,15 @@ struct Costs {
         lethal_above(static_cast<float>(c.lethal_above)),
         max_unknown(static_cast<float>(c.max_unknown)),
         slope(c.free_below < c.lethal_above ? static_cast<float>((most - 1) / (c.lethal_above - c.free_below)) : 0),
-        none(none_cost),
-        lethal(lethal_cost) {}
+        none(static_cast<float>(none_cost)),
+        lethal(static_cast<float>(lethal_cost)) {}
 
-  /// Selections instead of branches: the loop over a micro-tile becomes vectors.
+  /// Selections: with -fno-trapping-math (engine/CMakeLists.txt) the loop over a micro-tile becomes vectors.
   [[nodiscard]] int of(float o, float u) const noexcept {
     const float betp = o + 0.5f * u;
-    int cost = static_cast<int>((betp - free_below) * slope + 1.5f);  // 1 + the nearest whole number
-    cost = betp < free_below ? 0 : cost;
-    cost = betp > lethal_above ? lethal : cost;
-    return u > max_unknown ? none : cost;
+    const float between = (betp - free_below) * slope + 1.5f;  // 1 + the nearest whole number, once it is cut
+    const float cost = betp > lethal_above ? lethal : betp < free_below ? 0.0f : between;
+    return static_cast<int>(u > max_unknown ? none : cost);
   }
 };
 
@@ -130,7 +129,9 @@ void require_ordered(const Costmap& c) {
 template <class T>
 void render_costs(const TileStore& store, const Costs& c, CellRect rect, std::span<T> out, std::ptrdiff_t stride) {
   fill(store, rect, out, stride, static_cast<T>(c.of(0, 1)), [&c](const Micro& m, T* to) {
-    for (int i = 0; i < kernels::kMicroCells; ++i) to[i] = static_cast<T>(c.of(m.o[i], m.u[i]));
+    int cost[kernels::kMicroCells];  // apart from `to`, which as bytes might be anything: then the loop becomes vectors
+    for (int i = 0; i < kernels::kMicroCells; ++i) cost[i] = c.of(m.o[i], m.u[i]);
+    std::copy_n(cost, kernels::kMicroCells, to);
   });
 }
 
