@@ -30,6 +30,7 @@ void fuse_tile(const Batch& b, std::size_t index) {
   kernels::TileArgs args;
   args.cells = w.tile->cells.get();
   args.conflict_plane = b.p.params.keep_conflict;
+  args.fan = &fan_micros;
   for (const std::uint32_t i : w.footprints) {
     const Footprint& f = b.footprints[i];
     const auto at = [&](const auto& q) {  // the tile as seen from the sensor
@@ -39,10 +40,6 @@ void fuse_tile(const Batch& b, std::size_t index) {
     if (f.fan) {
       at(f.fan->reading);
       b.p.table.select_fan(f.fan->reading, args.x0, args.y0, fan_micros);
-      args.micros = fan_micros.edge;
-      args.micro_count = fan_micros.edge_count;
-      args.empty_micros = fan_micros.empty;
-      args.empty_count = fan_micros.empty_count;
       b.p.table.fuse_fan[rule](args, f.fan->reading, b.stats[index]);
     } else {
       at(f.cone);

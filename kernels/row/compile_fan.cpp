@@ -19,10 +19,11 @@ void build_reach(Fan& f, bool full_circle, double beams_per_rad) {
   const int levels = std::bit_width(std::min(stride, widest));
   f.reach.resize(static_cast<std::size_t>(levels) * stride);
   float longest = 1;
-  for (const float r : f.range) longest = r > longest ? r : longest;
+  const float* const range = f.reading.range;
+  for (std::size_t i = 0; i < n; ++i) longest = range[i] > longest ? range[i] : longest;
   const float unit = longest / 65000.0f, per_unit = 65000.0f / longest;
   for (std::size_t i = 0; i < n; ++i) {
-    const float r = f.range[i] > 0 ? f.range[i] * per_unit : 0.0f;
+    const float r = range[i] > 0 ? range[i] * per_unit : 0.0f;
     const auto below = static_cast<std::uint32_t>(static_cast<std::int32_t>(r));  // one more and less cover rounding
     f.reach[i] = (below + 2) << 16 | (below > 0 ? below - 1 : 0);
     if (full_circle) f.reach[n + i] = f.reach[i];
@@ -77,6 +78,8 @@ void compile_fan(const FanType& type, const SensorPose& pose, Fan& out) {
   const double far = quantise(s.max_range_m / c, lattice);
   out.border_x.resize(n + 1);
   out.border_y.resize(n + 1);
+  out.cells.assign(n + 2 * kFanPad, kNoBeam);
+  float* const cells = out.cells.data() + kFanPad;
   const SinCos yaw = portable_sincos(pose.yaw_rad);
   for (std::size_t i = 0; i <= n; ++i) {
     const Direction d = direction(yaw.cos * type.border_cos[i] - yaw.sin * type.border_sin[i],
@@ -89,12 +92,9 @@ void compile_fan(const FanType& type, const SensorPose& pose, Fan& out) {
   float x_min = 0, x_max = 0, y_min = 0, y_max = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double r = out.range[i];
-    if (r < 0) {
-      out.range[i] = kNoBeam;
-      continue;
-    }
-    out.range[i] = static_cast<float>(r > s.max_range_m ? far + margin : quantise(r / c, lattice));
-    const float reach = std::min(out.range[i] + static_cast<float>(half_width), static_cast<float>(far)) * stretch;
+    if (r < 0) continue;
+    cells[i] = static_cast<float>(r > s.max_range_m ? far + margin : quantise(r / c, lattice));
+    const float reach = std::min(cells[i] + static_cast<float>(half_width), static_cast<float>(far)) * stretch;
     for (std::size_t b = i; b <= i + 1; ++b) {
       x_min = std::min(x_min, reach * out.border_x[b]);
       x_max = std::max(x_max, reach * out.border_x[b]);
@@ -117,7 +117,7 @@ void compile_fan(const FanType& type, const SensorPose& pose, Fan& out) {
   q.empty = static_cast<float>(s.empty * s.reliability);
   q.occupied = static_cast<float>(s.occupied * s.reliability);
   q.fall = static_cast<float>(c / (2 * s.max_range_m));
-  q.range = out.range.data();
+  q.range = cells;
   q.border_x = out.border_x.data();
   q.border_y = out.border_y.data();
   build_reach(out, type.full_circle, 1 / s.beam_step_rad);
