@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "kernels/row/reading.hpp"
+#include "kernels/row/compile_reading.hpp"
 
 namespace evigrid::kernels {
 
@@ -84,6 +84,7 @@ struct KernelTable {
   std::string_view name;
   int lanes;  // floats in one vector
   void (*fuse_cone[kRules][kConeModels])(const TileArgs&, const ConeReading&, Stats&);
+  void (*compile_fan)(const FanType&, const SensorPose&, Fan&);
   void (*select_fan)(const FanReading&, float x0, float y0, FanMicros&);  // (x0, y0) as in TileArgs
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
   void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
