@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A source whose m(occupied) is zero, as a type: products with it vanish when the rule is compiled, so that every rule
-// text gives a one-sided rule of its own. Bits stay equal: masses are finite and not negative, so x·0 is 0 and x + 0 is x.
-// The opposite source is the mirror image (swap empty and occupied of cell and result: every rule is symmetric).
+// text gives a one-sided rule of its own. Bits stay equal: masses are finite and not negative, so x·0 is 0 and x + 0 is
+// x. The opposite source is the mirror image (swap empty and occupied of cell and result: every rule is symmetric).
 #pragma once
 #include "kernels/cell/mass.hpp"
 

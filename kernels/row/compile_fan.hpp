@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fan on the lattice. Borders are turned by the pose instead of taking a sine each. Beside the ranges there are tables
-// of their extremes over runs of beams, from which whole squares of cells are found to be out of reach or entirely empty
-// (select_fan.hpp). Plain loops, compiled for each target: only operations that IEEE 754 rounds correctly, so every
-// table compiles the same fan.
+// A fan on the lattice. Borders are turned by the pose instead of taking a sine each. Beside the ranges there are
+// tables of their extremes over runs of beams, from which whole squares of cells are found to be out of reach or
+// entirely empty (select_fan.hpp). Plain loops, compiled for each target: only operations that IEEE 754 rounds
+// correctly, so every table compiles the same fan.
 #pragma once
 #include <bit>
 

@@ -10,6 +10,7 @@ namespace evigrid::kernels {
 int fan_class_exact(const FanReading&, float dx, float dy, int candidate);
 
 /// Lanes named by `bits`: their classes, from offsets and beams (as floats), into `cls`.
-void decide_exactly(const FanReading&, std::uint64_t bits, const float* dx, const float* dy, const float* beam, float* cls);
+void decide_exactly(const FanReading&, std::uint64_t bits, const float* dx, const float* dy, const float* beam,
+                    float* cls);
 
 }  // namespace evigrid::kernels

@@ -27,7 +27,8 @@ struct FanClasses {
 };
 
 /// By the angle of each cell and a gather: any place, any beam.
-EVIGRID_FN FanClasses classify_anywhere(const FanReading& q, const Lanes::V& dx, const Lanes::V& dy, const Lanes::V& d) {
+EVIGRID_FN FanClasses classify_anywhere(const FanReading& q, const Lanes::V& dx, const Lanes::V& dy,
+                                        const Lanes::V& d) {
   using V = Lanes::V;
   const V zero(0.0f), one(1.0f), slack = mul_add(d, V(1e-6f), V(1e-6f));
   const auto reach = both(d >= V(q.near) - slack, d <= V(q.far) + slack);
@@ -162,8 +163,8 @@ struct FanUpdate {
         // An occupied cell is the mirror image of an empty one.
         const V e = Lanes::load(io.e, part), o = Lanes::load(io.o, part), u = Lanes::load(io.u, part);
         const auto source = measure_beam(q, select(c.occupied, V(q.occupied), V(q.empty)), d);
-        const auto next = Rule::template combine<MapState>(
-            Cell<V>{select(c.occupied, o, e), select(c.occupied, e, o), u}, source);
+        const auto next =
+            Rule::template combine<MapState>(Cell<V>{select(c.occupied, o, e), select(c.occupied, e, o), u}, source);
         Lanes::store_all(io.e, part, select(touched, select(c.occupied, next.cell.b, next.cell.a), e));
         Lanes::store_all(io.o, part, select(touched, select(c.occupied, next.cell.a, next.cell.b), o));
         Lanes::store_all(io.u, part, select(touched, next.cell.u, u));

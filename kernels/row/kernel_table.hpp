@@ -40,9 +40,9 @@ struct Stats {
   float max_conflict = 0;
 };
 
-/// The micro-tiles of a tile for one fan: those with nothing but empty cells, those to be looked at cell by cell, and of
-/// the latter those near the apex or behind the fan, whose cells find their beams by an angle of their own. Numbers of
-/// micro-tiles are floats here, as the lanes write them. Room for whole packs behind each list.
+/// The micro-tiles of a tile for one fan: those with nothing but empty cells, those to be looked at cell by cell, and
+/// of the latter those near the apex or behind the fan, whose cells find their beams by an angle of their own. Numbers
+/// of micro-tiles are floats here, as the lanes write them. Room for whole packs behind each list.
 struct FanMicros {
   static constexpr int kRoom = kMicrosPerTile + 64;
   int empty_count = 0, edge_count = 0, near_count = 0;  // edge_count: with the near ones

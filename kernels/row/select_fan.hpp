@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which micro-tiles of a tile a fan may touch, and which of them lie wholly in its empty part: squares of cells judged at
-// once, first 8 × 8 cells, then 4 × 4, by the extreme ranges of the beams that can cover them. Every judgement is on the
-// safe side; what is neither out nor wholly empty is left to the cell by cell test, so rounding here cannot change a map.
+// Which micro-tiles of a tile a fan may touch, and which of them lie wholly in its empty part: squares of cells judged
+// at once, first 8 × 8 cells, then 4 × 4, by the extreme ranges of the beams that can cover them. Every judgement is on
+// the safe side; what is neither out nor wholly empty is left to the cell by cell test, so rounding here cannot change
+// a map.
 #pragma once
 #include "kernels/cell/poly.hpp"
 #include "kernels/row/kernel_table.hpp"
@@ -10,9 +11,9 @@ EVIGRID_CELL_BEGIN
 
 struct Squares {
   Lanes::M out, empty;
-  Lanes::M near;                 // of neither: no window of beams
-  Lanes::V turn_x, turn_y;       // direction of the centre
-  Lanes::V place, low;           // of the centre among the beams; lowest beam of any cell
+  Lanes::M near;            // of neither: no window of beams
+  Lanes::V turn_x, turn_y;  // direction of the centre
+  Lanes::V place, low;      // of the centre among the beams; lowest beam of any cell
 };
 
 /// Squares of cells around (x, y), half diagonal `radius` between outermost cell centres.
@@ -25,7 +26,8 @@ EVIGRID_FN Squares judge_squares(const FanReading& q, const Lanes::V& x, const L
   const V half = mul_add(V(0.3f) * s, s * s, s) + V(1e-5f);  // ≥ asin(s) for s ≤ 2/3
   const V ahead = mul_add(V(q.mid_cos), x, V(q.mid_sin) * y), left = neg_mul_add(V(q.mid_sin), x, V(q.mid_cos) * y);
   const V angle = coarse_angle(ahead, left), turned = magnitude(angle);
-  const V t = mul_add(angle, V(q.beams_per_rad), V(q.half_beams)), h = mul_add(half, V(q.beams_per_rad), V(q.angle_slack));
+  const V t = mul_add(angle, V(q.beams_per_rad), V(q.half_beams)),
+          h = mul_add(half, V(q.beams_per_rad), V(q.angle_slack));
   const V low = Lanes::floor(t - h), high = Lanes::floor(t + h);
   const auto on_fan = both(low >= zero, high <= last);
   const auto beside = turned - half > V(q.half_angle + 1e-4f);
@@ -50,14 +52,13 @@ EVIGRID_FN Squares judge_squares(const FanReading& q, const Lanes::V& x, const L
   Lanes::gather_halves(q.reach, second, most_2, least_2);
   most = max_of(most, most_2) * V(q.reach_unit);
   least = min_of(least, least_2) * V(q.reach_unit);
-  const auto apart = d >= V(1.5f * radius);             // else the apex is in or near the square
+  const auto apart = d >= V(1.5f * radius);                   // else the apex is in or near the square
   const auto known = both(apart, turned + half <= V(3.14f));  // else it lies across the line behind the fan's middle
   const auto past_near = d > V(q.near) + pad;
   Squares m;
   m.out = either(either(d > V(q.far) + pad, d + pad < V(q.near)),
                  either(both(apart, beside), both(known, d > most + (V(q.half_width) + pad))));
-  m.empty = both(both(known, on_fan),
-                 both(least > d + (V(q.empty_margin) + pad), both(past_near, d + pad < V(q.far))));
+  m.empty = both(both(known, on_fan), both(least > d + (V(q.empty_margin) + pad), both(past_near, d + pad < V(q.far))));
   // A window needs the centre to be four radii off, for the arc sine of the turn from it, and few enough beams.
   const auto windowed = both(both(known, past_near), both(s <= V(0.25f), high - low < V(Lanes::kWindow)));
   m.near = select(windowed, zero, one) > V(0.5f);
@@ -90,7 +91,8 @@ inline void select_fan(const FanReading& q, float x0, float y0, FanMicros& out) 
   }
   for (std::uint64_t left = ~(gone | empty); left != 0; left &= left - 1) {
     const int node = __builtin_ctzll(left), micro = micro_of(node);
-    const float left_x = x0 + 1.5f + static_cast<float>(8 * (node % 8)), low_y = y0 + 1.5f + static_cast<float>(8 * (node / 8));
+    const float left_x = x0 + 1.5f + static_cast<float>(8 * (node % 8)),
+                low_y = y0 + 1.5f + static_cast<float>(8 * (node / 8));
     for (int k = 0; k < 4; ++k, ++count) {
       asked[count] = static_cast<float>(micro + kPart[k]);
       x[count] = left_x + static_cast<float>(4 * (k % 2));
