@@ -41,7 +41,8 @@ void fuse_tile(const Batch& b, std::size_t index) {
     if (f.fan) {
       at(f.fan->reading);
       b.p.table.select_fan(f.fan->reading, args.x0, args.y0, fan_micros);
-      reached |= blocks_of(fan_micros.edge, fan_micros.edge_count) | blocks_of(fan_micros.empty, fan_micros.empty_count);
+      reached |= blocks_of(fan_micros.empty, fan_micros.empty_count) | blocks_of(fan_micros.near, fan_micros.near_count) |
+                 blocks_of(fan_micros.edge, fan_micros.edge_count - fan_micros.near_count);
       b.p.table.fuse_fan[rule](args, f.fan->reading, b.stats[index]);
     } else {
       at(f.cone);
