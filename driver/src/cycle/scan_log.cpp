@@ -139,7 +139,7 @@ bool ScanLogReader::next(LoggedScan& out) {
     get(&tail.scans, sizeof tail.scans, "its end");
     const std::uint32_t right = crc_;
     get(&tail.crc, sizeof tail.crc + sizeof tail.zero, "its end");
-    if (false || tail.zero != 0) fail("its checksum is wrong");
+    if (tail.crc != right || tail.zero != 0) fail("its checksum is wrong");
     return false;
   }
   get(record_.data(), record_.size(), "a record");
