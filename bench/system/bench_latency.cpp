@@ -93,11 +93,6 @@ void register_all() {
   }
 }
 
-}  // namespace
+const bool registered = (register_all(), true);
 
-int main(int argc, char** argv) {
-  register_all();
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-}
+}  // namespace
