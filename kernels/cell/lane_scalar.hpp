@@ -60,6 +60,11 @@ struct Lanes {
   static V window(const float* const* of_micro, V place) { return of_micro[0][static_cast<int>(place)]; }
   static V load_flat(const float* p) { return *p; }
   static void store_flat(float* p, V v) { *p = v; }
+  static V load_unorm16(const std::uint16_t* p) { return static_cast<float>(*p); }
+  /// v + 2^23 ends in the nearest whole number, ties to even.
+  static void store_unorm16(std::uint16_t* p, V v) {
+    *p = static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(v + 8388608.0f));
+  }
   static int count(M m) { return m ? 1 : 0; }
   static bool any(M m) { return m; }
   static std::uint64_t bits(M m) { return m ? 1 : 0; }

@@ -74,7 +74,15 @@ struct DensePlanes {
   float* cc = nullptr;      // mass on empty ∩ occupied, of the rules that leave one; may be null
 };
 
-/// The same in double, with the operands' masses on empty ∩ occupied (null: none).
+/// Masses at 16 bits: e and o in steps of 1/65535, the unknown is the rest. Not of rules that leave a mass on
+/// empty ∩ occupied, but for fuzzy, whose operands need no unknown.
+struct Dense16Planes {
+  const std::uint16_t *ae, *ao, *be, *bo;
+  std::uint16_t *ce, *co;
+  float* k;  // may be null
+};
+
+/// DensePlanes in double, with the operands' masses on empty ∩ occupied (null: none).
 struct DoublePlanes {
   const double *ae, *ao, *au, *ac, *be, *bo, *bu, *bc;
   double *ce, *co, *cu, *cc, *k;  // cc and k may be null
@@ -90,6 +98,7 @@ struct KernelTable {
   void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
   void (*combine_measured[kRules][kConeModels])(const TileArgs&, const Measured&, Stats&);
   std::uint64_t (*dense[kBatchRules])(const DensePlanes&, std::size_t begin, std::size_t end);
+  std::uint64_t (*dense16[kBatchRules])(const Dense16Planes&, std::size_t begin, std::size_t end);
 };
 
 /// One point of a cone, by the scalar functions. Arguments as Polar (cells).

@@ -4,7 +4,6 @@
 // (pcr_table.hpp). Included last.
 #pragma once
 
-#include "kernels/cell/rule_batch.hpp"
 #include "kernels/cell/rule_dempster.hpp"
 #include "kernels/cell/rule_yager.hpp"
 #include "kernels/row/compile_fan.hpp"
@@ -24,14 +23,9 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   fill_rule<Dempster>(t, kDempster);
   fill_rule<Yager>(t, kYager);
   fill_paradox_rule<Dsmh>(t, kDsmh, kYager);
-  t.dense[kConjunctive] = dense<ConjunctiveRule>;
-  t.dense[kDisjunctive] = dense<Disjunctive>;
-  t.dense[kMurphy] = dense<Murphy>;
-  t.dense[kCautious] = dense<Cautious>;
-  t.dense[kBayes] = dense<Bayes>;
-  t.dense[kFuzzy] = dense<Fuzzy>;
   fill_pcr(t);
   fill_pcr14(t);
+  EVIGRID_BATCH_NAMESPACE::fill_batch(t);
   return t;
 }
 
