@@ -100,4 +100,9 @@ std::uint64_t combine(Rule rule, Planes<const double> a, Planes<const double> b,
 std::string_view resolve_kernel_name(Kernel kernel) { return table_of(kernel).name; }
 bool kernel_available(Kernel kernel) noexcept { return kernels::find_table(name(kernel)) != nullptr; }
 
+double fuzzy_map(double empty, double occupied) noexcept {
+  const double not_occupied = 1 - occupied, both = empty * occupied, neither = (1 - empty) * not_occupied;
+  return 1 - empty * empty * not_occupied * (1 - both) * (1 - neither);
+}
+
 }  // namespace evigrid

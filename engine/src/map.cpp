@@ -44,6 +44,7 @@ Map& Map::operator=(Map&&) noexcept = default;
 
 SensorId Map::add(const Sensor& sensor) {
   auto errors = check(sensor);
+  if (errors.empty()) errors = check_pair(impl_->params.rule, sensor);
   if (errors.empty()) errors = check_reach(sensor, impl_->params.cell_m);
   if (!errors.empty()) throw std::invalid_argument(describe(errors));
   impl_->compiled.emplace_back(sensor, impl_->params.cell_m);

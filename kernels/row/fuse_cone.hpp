@@ -132,23 +132,6 @@ void fuse_cone(const TileArgs& a, const ConeReading& q, Stats& stats) {
   }
 }
 
-/// A source as memory holds it, and back: a plain one keeps its kind, so that both paths run the same functions.
-template <class V>
-EVIGRID_FN Source<V> widen(const Source<V>& m) {
-  return m;
-}
-template <class V>
-EVIGRID_FN Source<V> widen(const PlainSource<V>& m) {
-  return {m.x, m.y, m.v, V(0.0f), V(1.0f)};
-}
-template <class Kind, class V>
-EVIGRID_FN Kind narrow(const Source<V>& m) {
-  if constexpr (requires(Kind k) { k.z; }) {
-    return m;
-  } else {
-    return {m.x, m.y, m.v};
-  }
-}
 template <class Model>
 using SourceOf = decltype(Model::measure(ConeReading{}, Polar<Lanes::V>{}));
 
@@ -169,17 +152,15 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
     std::uint64_t bits = 0;
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
-      const Source<Lanes::V> s =
+      const Parts<Lanes::V> s =
           widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt)));
-      alignas(64) float masses[5][Lanes::kLanes];
-      const Lanes::V* const from[5] = {&s.x, &s.y, &s.v, &s.z, &s.s};
-      float* const to[5] = {out.x, out.y, out.v, out.z, out.s};
-      for (int p = 0; p < 5; ++p) {
-        Lanes::store_flat(masses[p], *from[p]);
+      alignas(64) float masses[Measured::kParts][Lanes::kLanes];
+      for (int p = 0; p < Measured::kParts; ++p) {
+        Lanes::store_flat(masses[p], s.part[p]);
         for (int lane = 0; lane < Lanes::kLanes; ++lane) {
           const int at_micro = i + lane / kMicroCells;
           if (at_micro >= a.micro_count) break;
-          to[p][a.micros[at_micro] * kMicroCells + (kParts > 1 ? part : lane % kMicroCells)] = masses[p][lane];
+          out.part[p][a.micros[at_micro] * kMicroCells + (kParts > 1 ? part : lane % kMicroCells)] = masses[p][lane];
         }
       }
       bits |= Lanes::bits(at.inside) << (kParts > 1 ? part : 0);
@@ -191,7 +172,7 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
 }
 
 /// … and masses from memory into the map.
-template <class Rule, class Model, bool kConflict>
+template <class Rule, class Kind, bool kConflict>
 void combine_measured_planes(const TileArgs& a, const Measured& in, Stats& stats) {
   constexpr int kPlanes = kConflict ? 4 : 3;
   constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
@@ -200,36 +181,35 @@ void combine_measured_planes(const TileArgs& a, const Measured& in, Stats& stats
   for (int i = 0; i < a.micro_count; i += Lanes::kMicros) {
     float* cell[Lanes::kMicros];
     alignas(64) float flag[Lanes::kMicros][kMicroCells];
-    const float* source[6][Lanes::kMicros];
+    const float* source[Measured::kParts + 1][Lanes::kMicros];
     for (int m = 0; m < Lanes::kMicros; ++m) {
       const bool there = i + m < a.micro_count;
       const int micro = a.micros[there ? i + m : i];
       cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * kMicroCells * kPlanes : spare;
-      const float* const planes[5] = {in.x, in.y, in.v, in.z, in.s};
-      for (int p = 0; p < 5; ++p) source[p][m] = there ? planes[p] + micro * kMicroCells : none;
+      for (int p = 0; p < Measured::kParts; ++p) source[p][m] = there ? in.part[p] + micro * kMicroCells : none;
       for (int c = 0; c < kMicroCells; ++c) flag[m][c] = there && (in.inside[micro] >> c & 1) != 0 ? 1.0f : 0.0f;
-      source[5][m] = flag[m];
+      source[Measured::kParts][m] = flag[m];
     }
     const CellIo<kConflict> io(cell);
     for (int part = 0; part < kParts; ++part) {
-      const auto inside = Lanes::load(source[5], part) > Lanes::V(0.5f);
+      const auto inside = Lanes::load(source[Measured::kParts], part) > Lanes::V(0.5f);
       if (!Lanes::any(inside)) continue;
-      const Source<Lanes::V> s{Lanes::load(source[0], part), Lanes::load(source[1], part), Lanes::load(source[2], part),
-                               Lanes::load(source[3], part), Lanes::load(source[4], part)};
-      io.template fuse<Rule>(part, narrow<SourceOf<Model>>(s), inside, stats, max_k);
+      Parts<Lanes::V> s;
+      for (int p = 0; p < Measured::kParts; ++p) s.part[p] = Lanes::load(source[p], part);
+      io.template fuse<Rule>(part, narrow<Kind>(s), inside, stats, max_k);
     }
   }
   const float k = Lanes::reduce_max(max_k);
   if (k > stats.max_conflict) stats.max_conflict = k;
 }
 
-template <class Rule, class Model>
+template <class Rule, class Kind>
 void combine_measured(const TileArgs& a, const Measured& in, Stats& stats) {
   if (a.micro_count == 0) return;
   if (a.conflict_plane) {
-    combine_measured_planes<Rule, Model, true>(a, in, stats);
+    combine_measured_planes<Rule, Kind, true>(a, in, stats);
   } else {
-    combine_measured_planes<Rule, Model, false>(a, in, stats);
+    combine_measured_planes<Rule, Kind, false>(a, in, stats);
   }
 }
 

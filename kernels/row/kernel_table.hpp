@@ -32,8 +32,6 @@ enum RuleKernel : int {
   kFuzzy,
   kBatchRules
 };
-inline constexpr int kConeModels = 2;  // hughes1992, li2014
-
 struct Stats {
   std::uint64_t cells = 0;            // updates
   std::uint64_t total_conflicts = 0;  // answered by policy
@@ -59,7 +57,8 @@ struct FanMicros {
 
 /// Masses of one reading on the listed micro-tiles, kept apart from the map: the unfused path.
 struct Measured {
-  alignas(64) float x[4096], y[4096], v[4096], z[4096], s[4096];
+  static constexpr int kParts = 6;
+  alignas(64) float part[kParts][4096];  // x, y, v, z, s and what else a source knows (Pack in cell/mass.hpp)
   std::uint16_t inside[256];
 };
 
@@ -90,7 +89,7 @@ struct KernelTable {
 struct PointMass {
   float x, y, v, z, s;
 };
-PointMass measure_point(int cone_model, const ConeReading&, float nl, float nr, float d2, float edge);
+PointMass measure_point(int cone_model, const ConeReading&, float nl, float nr, float d2, float edge, float outer);
 
 /// The dense combination in double, scalar. Answers how many pairs were in total conflict.
 std::uint64_t dense_double(int rule, const DoublePlanes&, std::size_t begin, std::size_t end);

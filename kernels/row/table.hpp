@@ -17,8 +17,13 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   t.name = name;
   t.lanes = lanes;
   t.select_fan = select_fan;
-  t.measure_cone[0] = measure_cone<ModelHughes1992>;
-  t.measure_cone[1] = measure_cone<ModelLi2014>;
+  t.measure_cone[kHughes1992] = measure_cone<ModelHughes1992>;
+  t.measure_cone[kLi2014] = measure_cone<ModelLi2014>;
+  t.measure_cone[kOriolo1997] = measure_cone<ModelOriolo1997>;
+  t.measure_cone[kLi2006] = measure_cone<ModelLi2006>;
+  t.measure_cone[kProbability] = measure_cone<ModelProbability>;
+  t.measure_cone[kFuzzyModel] = measure_cone<ModelFuzzy>;
+  t.measure_cone[kMoravec1985] = measure_cone<ModelMoravec1985>;
   fill_rule<Dempster>(t, kDempster);
   fill_rule<Yager>(t, kYager);
   fill_paradox_rule<Dsmh>(t, kDsmh, kYager);

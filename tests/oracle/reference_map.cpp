@@ -97,13 +97,21 @@ void ReferenceMap::cone(const Declared& declared, const Pose2& pose, float range
   const Direction right = direction(pose.yaw_rad - sensor.aperture_rad / 2);
   const double range = lattice.round(range_m / cell);  // cells, as the next three
   const double nearest = std::max(lattice.round(sensor.min_range_m / cell), lattice.step());
-  double farthest = 0, occupied_from = 0;
+  double farthest = 0, occupied_from = 0, width = lattice.round(arc_m(sensor) / cell);
+  if (sensor.model != Model::li2006) width = std::max(width, lattice.step());
   if (sensor.model == Model::hughes1992) {
     const double tolerance = lattice.round(sensor.hughes.tolerance_m / cell);
     farthest = std::min(range + tolerance, lattice.round(sensor.hughes.r_max_m / cell));
     occupied_from = range - tolerance;
-  } else {
+  } else if (sensor.model == Model::li2014) {
     farthest = lattice.round(range * (1 + 2 * sensor.li.epsilon_ratio));
+  } else {
+    farthest = range + width;
+    const double rho_v_m = sensor.model == Model::oriolo1997    ? sensor.oriolo.rho_v_m
+                           : sensor.model == Model::probability ? sensor.probability.rho_v_m
+                           : sensor.model == Model::fuzzy       ? sensor.fuzzy.rho_v_m
+                                                                : 1e9;
+    farthest = std::min(farthest, lattice.round(std::min(rho_v_m + 5, 1e6) / cell));
   }
   sweep(declared, pose, farthest, [&](double dx, double dy, double d_squared, Source& source) {
     if (d_squared < square(nearest) || d_squared > square(farthest)) return false;
@@ -111,13 +119,8 @@ void ReferenceMap::cone(const Declared& declared, const Pose2& pose, float range
     if (beside_left < 0 || beside_right < 0) return false;
     const EdgeAngles angles{std::atan2(beside_left, dx * left.x + dy * left.y),
                             std::atan2(beside_right, dx * right.x + dy * right.y)};
-    const double d_m = std::sqrt(d_squared) * cell;
-    if (sensor.model == Model::hughes1992) {
-      const Zone zone = nearer(d_squared, occupied_from) ? Zone::empty : Zone::occupied;
-      source = hughes1992(sensor.hughes, d_m, angles, zone);
-    } else {
-      source = li2014(sensor.li, range * cell, d_m, angles);
-    }
+    const Zone zone = nearer(d_squared, occupied_from) ? Zone::empty : Zone::occupied;
+    source = cone_model(sensor, {std::sqrt(d_squared), range, width, nearest, cell}, angles, zone);
     return true;
   });
 }

@@ -60,9 +60,19 @@ enum class Rule : std::uint8_t {
 };
 inline constexpr int kRuleCount = 18, kMapRuleCount = 11;
 
-/// Inverse sensor models. hughes1992 and li2014 are sonar cones, beam is a fan of laser beams.
-enum class Model : std::uint8_t { hughes1992, li2014, beam };
-inline constexpr int kModelCount = 3;
+/// Inverse sensor models: sonar cones, and beam, a fan of laser beams. probability says P(occupied), fuzzy and
+/// moravec1985 say memberships of two sets, all others masses.
+enum class Model : std::uint8_t {
+  hughes1992,
+  oriolo1997,
+  li2006,
+  li2014,
+  probability,
+  fuzzy,
+  moravec1985,
+  beam
+};
+inline constexpr int kModelCount = 8;
 
 /// Which table of kernels runs. `automatic` takes the widest that the processor supports.
 enum class Kernel : std::uint8_t { automatic, scalar, avx2, avx512 };
@@ -86,6 +96,8 @@ Rule same_as(Rule) noexcept;
 /// Empty for the rules of maps, else the reason.
 std::string_view why_not_in_maps(Rule) noexcept;
 std::span<const Model> all_models() noexcept;
+/// Empty when the rule can fuse what the model says, else the reason.
+std::string_view why_not_together(Rule, Model) noexcept;
 
 /// Raised when a change alters the bits of a map; part of every report.
 inline constexpr int kMathsVersion = 1;

@@ -4,23 +4,42 @@
 #include <cmath>
 #include <optional>
 
+#include "model_rows.hpp"
+
 namespace evigrid {
 
 kernels::ConeSpec cone_spec(const Sensor& s, double cell_m) {
-  return {s.model == Model::li2014 ? 1 : 0,
-          cell_m,
-          s.aperture_rad,
-          s.min_range_m,
-          s.max_range_m,
-          s.reliability,
-          s.hughes.r_max_m,
-          s.hughes.max_occupied,
-          s.hughes.tolerance_m,
-          s.li.rho_e,
-          s.li.rho_o,
-          s.li.rho_c,
-          s.li.rho_i,
-          s.li.epsilon_ratio};
+  kernels::ConeSpec spec{model_row(s.model).cone,
+                         cell_m,
+                         s.aperture_rad,
+                         s.min_range_m,
+                         s.max_range_m,
+                         s.reliability,
+                         s.hughes.r_max_m,
+                         s.hughes.max_occupied,
+                         s.hughes.tolerance_m,
+                         s.li.rho_e,
+                         s.li.rho_o,
+                         s.li.rho_c,
+                         s.li.rho_i,
+                         s.li.epsilon_ratio};
+  spec.li2006_rho_v = s.li2006.rho_v;
+  spec.li2006_epsilon_m = s.li2006.epsilon_m;
+  spec.discount_by_lambda = s.li2006.discount_by_lambda;
+  spec.moravec_epsilon_m = s.moravec.epsilon_m;
+  switch (s.model) {  // these three share their constants
+    case Model::probability:
+      spec.width_m = s.probability.epsilon_m, spec.rho_v_m = s.probability.rho_v_m;
+      break;
+    case Model::fuzzy:
+      spec.width_m = s.fuzzy.epsilon_m, spec.rho_v_m = s.fuzzy.rho_v_m, spec.as_printed = s.fuzzy.as_printed;
+      spec.k_empty = s.fuzzy.k_empty, spec.k_occupied = s.fuzzy.k_occupied;
+      break;
+    default:
+      spec.width_m = s.oriolo.delta_m, spec.rho_v_m = s.oriolo.rho_v_m;
+      spec.k_empty = s.oriolo.k_empty, spec.k_occupied = s.oriolo.k_occupied;
+  }
+  return spec;
 }
 
 kernels::FanSpec fan_spec(const Sensor& s, double cell_m) {
