@@ -18,19 +18,25 @@ struct ModelLi2006 {
   static EVIGRID_FN FaintSource<V> measure(const ConeReading& q, const Polar<V>& p) {
     const auto& k = q.li2006;
     const V zero(0.0f), one(1.0f), least(-80.0f);
-    const V d2 = nonzero(p.d2), to_range = root(p.d2) + V(k.range), inverse = one / (d2 * to_range);
-    const V margin = (p.nl * p.nr) * (to_range * inverse);
+    const V d = root(p.d2), d2 = nonzero(p.d2), to_range = d + V(k.range), inverse = one / (d2 * to_range);
+    const V by_d2 = to_range * inverse, skew = p.nl - p.nr;
+    const V margin = (p.nl * p.nr) * by_d2;
     const V lambda = mul_add(margin, cubic(k.lambda, margin), V(k.rest));
-    const V dr = p.edge * (d2 * inverse);  // d − R
+    const V off = (skew * skew) * by_d2, doubt = off * cubic(k.off_axis, off);  // 1 − λ, right relatively on the axis
+    // d − R, one Newton step from the rounded difference: (14.7) falls steeply, and under Dempster's rule its ratio to the
+    // other masses counts, not its size. The rate is two floats for the same reason.
+    const V rough = d - V(k.range);
+    const V dr = mul_add(neg_mul_add(rough, rough + V(k.range_twice), p.edge), d2 * inverse, rough);
     const V f = exp2_poly(max_of(zero - max_of(dr, zero) * V(k.unknown_rate), least)), times = one + f;
     const V x = times * max_of(zero - p.edge * V(k.range_inverse_square), zero);
-    const V far_tail = exp2_poly(max_of(zero - (dr * dr) * V(k.occupied_rate), least));
+    const V dr2 = dr * dr;
+    const V far_tail = exp2_poly(max_of(neg_mul_add(dr2, V(k.occupied_rate), zero - dr2 * V(k.occupied_rate_rest)), least));
     const V y = times * settle_source(far_tail);
     const V g = mul_add(dr, V(k.both_slope), V(k.both_offset));
     const V z = times * select(p.edge <= zero, max_of(neg_mul_add(g, g, one), zero), zero);
     const V v = one - f;
     const V sum = x + y, s = (sum + z) + v;
-    return {settle_source(x * lambda), settle_source(y * lambda), mul_add(v, lambda, s * max_of(one - lambda, zero)),
+    return {settle_source(x * lambda), settle_source(y * lambda), mul_add(v, lambda, s * doubt),
             z * lambda, s, z / nonzero(sum)};
   }
 };

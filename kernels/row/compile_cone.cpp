@@ -30,12 +30,15 @@ Ring ring(double t) {
   return {hi, static_cast<float>(t2 - hi)};
 }
 
-/// The fit of λ for the edges as they are: rounded to float they open to another angle than the sensor's, by 1e-5 of a
+/// sin²α of the sensor over that of its edges as they are: rounded to float they open to another angle, by 1e-5 of a
 /// small one.
-void fit_lambda(const ConeType& t, const ConeReading& q, float (&out)[4]) {
+double edge_ratio(const ConeType& t, const ConeReading& q) {
   const double lx = q.lx, ly = q.ly, rx = q.rx, ry = q.ry, sine = portable_sincos(t.spec.aperture_rad / 2).sin;
-  const double on_axis = (std::sqrt((lx * lx + ly * ly) * (rx * rx + ry * ry)) - (lx * rx + ly * ry)) / 2;
-  const double ratio = sine * sine / on_axis;  // of the margins on the axis, nominal to actual
+  return sine * sine / ((std::sqrt((lx * lx + ly * ly) * (rx * rx + ry * ry)) - (lx * rx + ly * ry)) / 2);
+}
+
+/// The fit of λ for those edges.
+void fit_lambda(const ConeType& t, double ratio, float (&out)[4]) {
   double power = ratio;
   for (int i = 0; i < 4; ++i, power *= ratio) out[i] = rounded(t.lambda[i] * power);
 }
@@ -119,11 +122,18 @@ void li2006_constants(const ConeType& t, const Rounding& to, double r, ConeReadi
   const double c = to.cell_m;
   q.li2006 = {};
   Li2006Constants& k = q.li2006;
-  if (s.discount_by_lambda) fit_lambda(t, q, k.lambda);
+  if (s.discount_by_lambda) {
+    const double ratio = edge_ratio(t, q);
+    fit_lambda(t, ratio, k.lambda);
+    for (int i = 0; i < 4; ++i) k.off_axis[i] = rounded(t.off_axis[i] * ratio);
+  }
   k.rest = s.discount_by_lambda ? 0 : 1;
   k.range = rounded(r);
+  k.range_twice = rounded(2 * r);
   k.range_inverse_square = rounded(1 / (r * r));
-  k.occupied_rate = rounded(3 * s.li2006_rho_v * c * c * kLog2E);
+  const double occupied_rate = 3 * s.li2006_rho_v * c * c * kLog2E;
+  k.occupied_rate = rounded(occupied_rate);
+  k.occupied_rate_rest = rounded(occupied_rate - k.occupied_rate);
   k.both_slope = rounded(2 / r);
   k.both_offset = rounded(4 * to.metres(s.li2006_epsilon_m) / r);
   k.unknown_rate = rounded(4 * kLog2E * c);
@@ -141,7 +151,7 @@ void moravec_constants(const ConeType& t, const Rounding& to, double r, ConeRead
   const double n = std::max(8.0 / 9 * s.aperture_rad * epsilon * r, 1.0);
   q.moravec = {};
   MoravecConstants& k = q.moravec;
-  fit_lambda(t, q, k.lambda);
+  fit_lambda(t, edge_ratio(t, q), k.lambda);
   k.border = rounded(std::max(r - epsilon, 0.0));
   k.border_shift = rounded(std::max(epsilon - r, 0.0));
   k.reach = rounded(r + epsilon);

@@ -42,6 +42,13 @@ ConeType::ConeType(const ConeSpec& s) : spec(s) {
         return (1 - theta * theta / (alpha * alpha)) / q;
       },
       sine2, lambda);
+  const double twice_cosine = 2 * portable_sincos(alpha).cos;
+  fit_cubic(
+      [&](double w) {
+        const double theta = portable_asin(std::sqrt(w) / twice_cosine);
+        return theta * theta / (alpha * alpha) / w;
+      },
+      sine2 * twice_cosine * twice_cosine, off_axis);
   fit_cubic([&](double x2) { return portable_asin(std::sqrt(x2)) / std::sqrt(x2) / (2 * alpha); }, sine2, margin);
   fit_cubic(
       [&](double x) {

@@ -35,9 +35,9 @@ struct TanhConstants {
   bool as_printed;
 };
 struct Li2006Constants {
-  float lambda[4];
+  float lambda[4], off_axis[4];
   float rest;  // 0; 1, with no λ: as printed
-  float range, range_inverse_square, occupied_rate, both_slope, both_offset, unknown_rate;
+  float range, range_twice, range_inverse_square, occupied_rate, occupied_rate_rest, both_slope, both_offset, unknown_rate;
 };
 struct MoravecConstants {
   float lambda[4];

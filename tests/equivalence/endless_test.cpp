@@ -21,7 +21,7 @@ struct Micro {
 TEST(Endless, AMillionUpdatesOfACellStayMasses) {
   const KernelTable& table = *find_table("auto");
   for (int rule = 0; rule < kRules; ++rule) {
-    for (int model = 0; model < kConeModels; ++model) {
+    for (const int model : {kHughes1992, kLi2014, kOriolo1997, kLi2006}) {
       const ConeType type({model, 0.05, 0.35, 0.1, 5, 1, 7.62, 1, 0.15, 0.35, 0.1, 80, 10, 0.01});
       // One micro-tile of a tile, before, on and behind what is heard: empty, occupied, and both in turn.
       std::vector<ConeReading> readings;

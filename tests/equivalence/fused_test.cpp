@@ -34,7 +34,7 @@ TEST(Fused, EqualsUnfused) {
     if (table == nullptr) continue;
     ASSERT_EQ(table->name, table_name);
     for (int rule = 0; rule < kRules; ++rule) {
-      for (int model = 0; model < kConeModels; ++model) {
+      for (const int model : {kHughes1992, kLi2014, kOriolo1997, kLi2006}) {
         const ConeType type({model, 0.05, 0.35, 0.1, 5, 0.93, 7.62, 0.98, 0.15, 0.35, 0.1, 80, 10, 0.01});
         auto fused = std::make_unique<TileBuffer>(), unfused = std::make_unique<TileBuffer>();
         Stats a, b;

