@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "evigrid/scan.hpp"
+#include "evigrid/map.hpp"
 #include "kernels/row/portable_math.hpp"
 
 namespace evigrid {
@@ -19,12 +19,8 @@ constexpr auto kModelNames =
     std::to_array<Named<Model>>({{Model::hughes1992, "hughes1992"}, {Model::li2014, "li2014"}, {Model::beam, "beam"}});
 constexpr auto kKernelNames = std::to_array<Named<Kernel>>(
     {{Kernel::automatic, "auto"}, {Kernel::scalar, "scalar"}, {Kernel::avx2, "avx2"}, {Kernel::avx512, "avx512"}});
-constexpr auto kLayerNames = std::to_array<Named<Layer>>({{Layer::betp, "betp"},
-                                                          {Layer::bel, "bel"},
-                                                          {Layer::pl, "pl"},
-                                                          {Layer::empty, "empty"},
-                                                          {Layer::unknown, "unknown"},
-                                                          {Layer::conflict, "conflict"}});
+constexpr auto kLikelihoodNames =
+    std::to_array<Named<Likelihood>>({{Likelihood::betp, "betp"}, {Likelihood::plp, "plp"}});
 constexpr auto kRefusalNames = std::to_array<Named<Refusal>>({{Refusal::not_a_number, "not_a_number"},
                                                               {Refusal::too_close, "too_close"},
                                                               {Refusal::negative, "negative"},
@@ -61,9 +57,12 @@ constexpr auto kModels = values(kModelNames);
 
 std::string_view name(Model m) noexcept { return find_name(kModelNames, m); }
 std::string_view name(Kernel k) noexcept { return find_name(kKernelNames, k); }
-std::string_view name(Layer l) noexcept { return find_name(kLayerNames, l); }
+std::string_view name(Likelihood l) noexcept { return find_name(kLikelihoodNames, l); }
 std::string_view name(Refusal r) noexcept { return find_name(kRefusalNames, r); }
 std::optional<Model> model_from_name(std::string_view s) noexcept { return find_value<Model>(kModelNames, s); }
+std::optional<Likelihood> likelihood_from_name(std::string_view s) noexcept {
+  return find_value<Likelihood>(kLikelihoodNames, s);
+}
 std::optional<Kernel> kernel_from_name(std::string_view s) noexcept { return find_value<Kernel>(kKernelNames, s); }
 std::span<const Model> all_models() noexcept { return kModels; }
 

@@ -11,17 +11,25 @@
 #include "kernels/row/dense.hpp"
 #include "kernels/row/fuse_cone.hpp"
 #include "kernels/row/fuse_fan.hpp"
+#include "kernels/row/read_out.hpp"
 #include "kernels/row/tables.hpp"
 
 EVIGRID_CELL_BEGIN
 
+/// A state's part of the column.
+template <class State>
+void fill_state(KernelTable& t, int rule) {
+  t.fuse_cone[rule][0] = fuse_cone<State, ModelHughes1992>;
+  t.fuse_cone[rule][1] = fuse_cone<State, ModelLi2014>;
+  t.fuse_fan[rule] = fuse_fan<State>;
+  t.combine_measured[rule][0] = combine_measured<State, ModelHughes1992>;
+  t.combine_measured[rule][1] = combine_measured<State, ModelLi2014>;
+  t.read_out[rule] = read_out<State>;
+}
+
 template <class Rule>
 void fill_rule(KernelTable& t, int rule) {
-  t.fuse_cone[rule][0] = fuse_cone<Rule, ModelHughes1992>;
-  t.fuse_cone[rule][1] = fuse_cone<Rule, ModelLi2014>;
-  t.fuse_fan[rule] = fuse_fan<Rule>;
-  t.combine_measured[rule][0] = combine_measured<Rule, ModelHughes1992>;
-  t.combine_measured[rule][1] = combine_measured<Rule, ModelLi2014>;
+  fill_state<MassCells<Rule>>(t, rule);
   t.dense[rule] = dense<Rule>;
 }
 
@@ -29,10 +37,11 @@ void fill_rule(KernelTable& t, int rule) {
 template <class Rule>
 void fill_paradox_rule(KernelTable& t, int rule, int otherwise) {
   t.fuse_cone[rule][0] = t.fuse_cone[otherwise][0];
-  t.fuse_cone[rule][1] = fuse_cone<Rule, ModelLi2014>;
+  t.fuse_cone[rule][1] = fuse_cone<MassCells<Rule>, ModelLi2014>;
   t.fuse_fan[rule] = t.fuse_fan[otherwise];
   t.combine_measured[rule][0] = t.combine_measured[otherwise][0];
-  t.combine_measured[rule][1] = combine_measured<Rule, ModelLi2014>;
+  t.combine_measured[rule][1] = combine_measured<MassCells<Rule>, ModelLi2014>;
+  t.read_out[rule] = t.read_out[otherwise];
   t.dense[rule] = t.dense[otherwise];
 }
 
