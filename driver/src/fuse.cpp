@@ -32,9 +32,22 @@ Plan make_plan(const MappingOptions& o) {
   plan.params.kernel = parse_kernel(o.kernel);
   if (!o.model.empty()) parse_model(o.model);
   if (o.cell_m) plan.params.cell_m = *o.cell_m;
+  const auto likelihood = likelihood_from_name(o.bayes_likelihood);
+  if (!likelihood)
+    throw InputError(fmt::format("--bayes-likelihood: '{}' is unknown; known: betp, plp", o.bayes_likelihood));
+  plan.params.bayes.likelihood = *likelihood;
+  if (o.bayes_limits.size() == 2) {
+    plan.params.bayes.least_p = o.bayes_limits[0];
+    plan.params.bayes.most_p = o.bayes_limits[1];
+  }
+  if (o.layers != "all") {
+    for (const Look look : parse_looks("--layers", o.layers)) {
+      plan.params.keep_con |= look == Look::con;
+      plan.params.keep_last_conflict |= look == Look::last_conflict;
+    }
+  }
   if (const auto errors = check(plan.params); !errors.empty()) throw InputError(listed(errors));
   if (o.max_image_mb <= 0) throw InputError(fmt::format("--max-image-mb: {} is not above 0", o.max_image_mb));
-  parse_looks("--layers", o.layers);
   parse_pgm_mode(o.pgm_mode);
   plan.executor = parse_executor(o.executor, o.threads);
   return plan;

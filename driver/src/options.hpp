@@ -18,6 +18,8 @@ struct MappingOptions {
   std::string model;  ///< empty: beam for lasers, li2014 for sonars
   std::optional<double> cell_m, max_range_m, reliability;
   bool clear_no_return = false;
+  std::string bayes_likelihood = "betp";
+  std::vector<double> bayes_limits;  ///< empty, or least and most P(occupied)
   int threads = 0;
   std::string executor = "tbb";
   std::string kernel = "auto";

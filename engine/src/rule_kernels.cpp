@@ -68,6 +68,7 @@ std::string_view name(Rule r) noexcept { return row_of(r) != nullptr ? row_of(r)
 std::string_view why_not_in_maps(Rule r) noexcept {
   return row_of(r) != nullptr ? row_of(r)->not_in_maps : "no such rule";
 }
+bool keeps_paradox(Rule r) noexcept { return kernel_of(r) == kConjunctive || kernel_of(r) == kFuzzy; }
 Rule same_as(Rule r) noexcept {
   for (const Row& row : kRows) {
     if (row.kernel == kernel_of(r)) return row.rule;

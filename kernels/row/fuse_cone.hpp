@@ -99,7 +99,7 @@ struct CellIo {
     if constexpr (kConflict) {
       float* const* k = plane[kPlanes];
       Lanes::store(k, part, inside, Lanes::load(k, part) + kk);
-      if (args.con || args.last) {
+      if (args.con || args.last) [[unlikely]] {
         const Lanes::M where = inside;  // copies: the originals stay in registers
         const Lanes::V what = kk;
         keep_history(k, part, where, what, args);

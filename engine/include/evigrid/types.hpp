@@ -81,6 +81,8 @@ std::span<const Rule> map_rules() noexcept;
 /// The first rule that gives the same for two sources on this frame: itself but for pcr3 (pcr2), pcr6 (pcr5),
 /// dubois_prade (yager) and dsmc (conjunctive). dempster_log counts as itself.
 Rule same_as(Rule) noexcept;
+/// Whether the rule leaves a mass on empty ∩ occupied: conjunctive, dsmc, fuzzy.
+bool keeps_paradox(Rule) noexcept;
 /// Empty for the rules of maps, else the reason.
 std::string_view why_not_in_maps(Rule) noexcept;
 std::span<const Model> all_models() noexcept;
