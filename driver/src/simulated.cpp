@@ -30,6 +30,9 @@ Sensor common(const Spec& spec) {
   s.min_range_m = spec.min_range_m;
   s.max_range_m = spec.max_range_m;
   s.reliability = spec.reliability;
+  for (const auto& [model, values] : spec.parameters) {
+    for (const auto& [field, value] : values) set_model_param(s, parse_model(model), field, value);
+  }
   return s;
 }
 
@@ -97,6 +100,10 @@ scenes::Vocabulary vocabulary() {
   for (const Rule rule : all_rules()) words.rules.emplace_back(name(rule));
   for (const Model model : all_models())
     (model == Model::beam ? words.laser_models : words.sonar_models).emplace_back(name(model));
+  for (const Model model : all_models()) {
+    for (const ModelParam& p : model_params(model))
+      words.parameters.push_back({std::string(name(model)), std::string(p.name), p.least, p.most, p.is_switch});
+  }
   return words;
 }
 
@@ -118,6 +125,11 @@ SceneInput open_scene(const std::string& name_or_path) {
                          ? fmt::format("{}; embedded scenes: {}", error.what(), embedded_scene_names())
                          : error.what());
   }
+}
+
+void use_filter(const scenes::Scene& scene, MappingOptions& options) {
+  if (options.filter.empty() && scene.map.false_reflection_m >= 0)
+    options.filter = fmt::format("false_reflection={}", scene.map.false_reflection_m);
 }
 
 Simulated simulate(const scenes::Scene& scene, const CastOptions& options) {

@@ -43,11 +43,6 @@ std::uint64_t over_blocks(std::size_t n, Executor* executor, const Body& body) {
   return context.sum;
 }
 
-bool leaves_paradox(Rule rule) {
-  const kernels::RuleKernel k = kernel_of(rule);
-  return k == kernels::kConjunctive || k == kernels::kFuzzy;
-}
-
 /// Floats with mass on empty ∩ occupied, in double a few at a time.
 std::uint64_t through_double(Rule rule, Planes<const float> a, Planes<const float> b, Planes<float> c, float* conflict,
                              std::size_t begin, std::size_t end) {
@@ -82,7 +77,7 @@ std::uint64_t combine(Rule rule, Planes<const float> a, Planes<const float> b, P
   return over_blocks(n, executor, [&](std::size_t begin, std::size_t end) {
     if (open) return through_double(rule, a, b, c, conflict, begin, end);
     const std::uint64_t totals = dense(planes, begin, end);
-    if (c.c != nullptr && !leaves_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0f);
+    if (c.c != nullptr && !keeps_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0f);
     return totals;
   });
 }
@@ -92,7 +87,7 @@ std::uint64_t combine(Rule rule, Planes<const double> a, Planes<const double> b,
   const kernels::DoublePlanes planes{a.e, a.o, a.u, a.c, b.e, b.o, b.u, b.c, c.e, c.o, c.u, c.c, conflict};
   return over_blocks(n, executor, [&](std::size_t begin, std::size_t end) {
     const std::uint64_t totals = kernels::dense_double(kernel_of(rule), planes, begin, end);
-    if (c.c != nullptr && !leaves_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0);
+    if (c.c != nullptr && !keeps_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0);
     return totals;
   });
 }

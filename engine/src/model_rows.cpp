@@ -10,14 +10,14 @@ namespace {
 
 using enum Says;
 constexpr auto kRows = std::to_array<ModelRow>({
-    {Model::hughes1992, "hughes1992", kernels::kHughes1992, masses, false, kHughesRows},
-    {Model::oriolo1997, "oriolo1997", kernels::kOriolo1997, masses, true, kOrioloRows},
-    {Model::li2006, "li2006", kernels::kLi2006, masses, false, kLi2006Rows},
-    {Model::li2014, "li2014", kernels::kLi2014, masses, false, kLiRows},
-    {Model::probability, "probability", kernels::kProbability, probability, false, kProbabilityRows},
-    {Model::fuzzy, "fuzzy", kernels::kFuzzyModel, memberships, true, kFuzzyRows},
-    {Model::moravec1985, "moravec1985", kernels::kMoravec1985, memberships, true, kMoravecRows},
-    {Model::beam, "beam", -1, masses, false, kBeamRows},
+    {Model::hughes1992, "hughes1992", kernels::kHughes1992, masses, kHughesRows},
+    {Model::oriolo1997, "oriolo1997", kernels::kOriolo1997, masses, kOrioloRows},
+    {Model::li2006, "li2006", kernels::kLi2006, masses, kLi2006Rows},
+    {Model::li2014, "li2014", kernels::kLi2014, masses, kLiRows},
+    {Model::probability, "probability", kernels::kProbability, probability, kProbabilityRows},
+    {Model::fuzzy, "fuzzy", kernels::kFuzzyModel, memberships, kFuzzyRows},
+    {Model::moravec1985, "moravec1985", kernels::kMoravec1985, memberships, kMoravecRows},
+    {Model::beam, "beam", -1, masses, kBeamRows},
 });
 static_assert(kRows.size() == kModelCount);
 
@@ -60,10 +60,7 @@ std::span<const Model> all_models() noexcept { return kAll; }
 
 std::string_view why_not_together(Rule rule, Model m) noexcept {
   const ModelRow& row = model_row(m);
-  if (rule == Rule::fuzzy) {
-    return row.also_memberships ? "" : "what it says are no memberships; models for fuzzy: oriolo1997, fuzzy, moravec1985";
-  }
-  if (row.says == memberships) return "it says memberships, which are no masses; its rule is fuzzy";
+  if (row.says == memberships && rule != Rule::fuzzy) return "it says memberships, which are no masses; its rule is fuzzy";
   if (row.says == probability && rule != Rule::bayes) return "it says a probability and no masses; its rule is bayes";
   return "";
 }

@@ -14,7 +14,6 @@ struct ModelRow {
   std::string_view name;
   int cone;  ///< a kernels::ConeModel; −1: a fan
   Says says;
-  bool also_memberships;  ///< masses that were made as memberships: rule fuzzy takes them, too
   std::span<const ParamRow<Sensor>> params;
 };
 

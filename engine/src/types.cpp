@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "evigrid/scan.hpp"
+#include "evigrid/map.hpp"
 #include "kernels/row/portable_math.hpp"
 
 namespace evigrid {
@@ -17,12 +17,8 @@ struct Named {
 };
 constexpr auto kKernelNames = std::to_array<Named<Kernel>>(
     {{Kernel::automatic, "auto"}, {Kernel::scalar, "scalar"}, {Kernel::avx2, "avx2"}, {Kernel::avx512, "avx512"}});
-constexpr auto kLayerNames = std::to_array<Named<Layer>>({{Layer::betp, "betp"},
-                                                          {Layer::bel, "bel"},
-                                                          {Layer::pl, "pl"},
-                                                          {Layer::empty, "empty"},
-                                                          {Layer::unknown, "unknown"},
-                                                          {Layer::conflict, "conflict"}});
+constexpr auto kLikelihoodNames =
+    std::to_array<Named<Likelihood>>({{Likelihood::betp, "betp"}, {Likelihood::plp, "plp"}});
 constexpr auto kRefusalNames = std::to_array<Named<Refusal>>({{Refusal::not_a_number, "not_a_number"},
                                                               {Refusal::too_close, "too_close"},
                                                               {Refusal::negative, "negative"},
@@ -30,7 +26,8 @@ constexpr auto kRefusalNames = std::to_array<Named<Refusal>>({{Refusal::not_a_nu
                                                               {Refusal::above_max_range, "above_max_range"},
                                                               {Refusal::wrong_beam_count, "wrong_beam_count"},
                                                               {Refusal::unknown_sensor, "unknown_sensor"},
-                                                              {Refusal::pose_not_finite, "pose_not_finite"}});
+                                                              {Refusal::pose_not_finite, "pose_not_finite"},
+                                                              {Refusal::false_reflection, "false_reflection"}});
 static_assert(kRefusalNames.size() == kRefusalCount);
 
 template <class Table, class E>
@@ -51,8 +48,11 @@ std::optional<E> find_value(const Table& table, std::string_view text) noexcept 
 }  // namespace
 
 std::string_view name(Kernel k) noexcept { return find_name(kKernelNames, k); }
-std::string_view name(Layer l) noexcept { return find_name(kLayerNames, l); }
+std::string_view name(Likelihood l) noexcept { return find_name(kLikelihoodNames, l); }
 std::string_view name(Refusal r) noexcept { return find_name(kRefusalNames, r); }
+std::optional<Likelihood> likelihood_from_name(std::string_view s) noexcept {
+  return find_value<Likelihood>(kLikelihoodNames, s);
+}
 std::optional<Kernel> kernel_from_name(std::string_view s) noexcept { return find_value<Kernel>(kKernelNames, s); }
 
 Pose2 compose(const Pose2& a, const Pose2& b) noexcept {

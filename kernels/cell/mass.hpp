@@ -15,12 +15,14 @@ struct Cell {
 
 template <class V>
 struct Source {
+  static constexpr bool kYields = false;
   V x, y, v, z, s;  // m(empty), m(occupied), m(unknown), m(empty ∩ occupied), their sum
 };
 
 /// A source without paradoxical mass, already normalised: its sum is 1 and costs nothing.
 template <class V>
 struct PlainSource {
+  static constexpr bool kYields = false;
   V x, y, v;
 };
 
@@ -28,12 +30,14 @@ struct PlainSource {
 /// mass can be given back without a small scale.
 template <class V>
 struct FaintSource {
+  static constexpr bool kYields = false;
   V x, y, v, z, s, share;
 };
 
 /// Memberships whose occupied part gives way to what the cell knows of empty: y(1 − e) (moravec1985).
 template <class V>
 struct YieldingSource {
+  static constexpr bool kYields = true;
   V x, y, v;
 };
 

@@ -22,11 +22,11 @@ EVIGRID_FN PlainSource<V> measure_beam(const FanReading& q, const V& cls, const 
   return {x, y, one - (x + y)};
 }
 
-template <class Rule, bool kConflict>
+template <class State, bool kConflict>
 void fuse_fan_planes(const TileArgs& a, const FanReading& q_in, Stats& stats) {
   using V = Lanes::V;
   const FanReading q = q_in;
-  constexpr int kPlanes = kConflict ? 4 : 3;
+  const std::size_t stride = static_cast<std::size_t>(a.planes) * kMicroCells;
   constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
   alignas(64) float dxs[kMicrosPerSide][kMicroCells], dys[kMicrosPerSide][kMicroCells];
   for (int m = 0; m < kMicrosPerSide; ++m) {
@@ -35,7 +35,7 @@ void fuse_fan_planes(const TileArgs& a, const FanReading& q_in, Stats& stats) {
       dys[m][i] = a.y0 + static_cast<float>(4 * m + i / 4);
     }
   }
-  alignas(64) float spare[4 * kMicroCells] = {}, nowhere[kMicroCells];
+  alignas(64) float spare[kMostPlanes * kMicroCells] = {}, nowhere[kMicroCells];
   for (float& f : nowhere) f = 1e6f;
   const V zero(0.0f), one(1.0f), two(2.0f);
   V max_k(0.0f);
@@ -45,15 +45,15 @@ void fuse_fan_planes(const TileArgs& a, const FanReading& q_in, Stats& stats) {
     for (int m = 0; m < Lanes::kMicros; ++m) {
       const bool there = i + m < a.empty_count;
       const int micro = a.empty_micros[there ? i + m : i];
-      cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * kMicroCells * kPlanes : spare;
+      cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * stride : spare;
       px[m] = there ? dxs[micro % kMicrosPerSide] : nowhere;
       py[m] = dys[micro / kMicrosPerSide];
     }
-    const CellIo<kConflict> io(cell);
+    const CellIo<State, kConflict> io(cell);
     for (int part = 0; part < kParts; ++part) {
       const V dx = Lanes::load(px, part), dy = Lanes::load(py, part);
       const V d = root(mul_add(dx, dx, dy * dy));
-      io.template fuse<Rule>(part, measure_beam(q, one, d), d <= V(q.far), stats, max_k);
+      io.fuse(part, measure_beam(q, one, d), d <= V(q.far), a.rule, stats, max_k);
     }
   }
   for (int i = 0; i < a.micro_count; i += Lanes::kMicros) {
@@ -62,11 +62,11 @@ void fuse_fan_planes(const TileArgs& a, const FanReading& q_in, Stats& stats) {
     for (int m = 0; m < Lanes::kMicros; ++m) {
       const bool there = i + m < a.micro_count;
       const int micro = a.micros[there ? i + m : i];
-      cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * kMicroCells * kPlanes : spare;
+      cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * stride : spare;
       px[m] = there ? dxs[micro % kMicrosPerSide] : nowhere;
       py[m] = dys[micro / kMicrosPerSide];
     }
-    const CellIo<kConflict> io(cell);
+    const CellIo<State, kConflict> io(cell);
     for (int part = 0; part < kParts; ++part) {
       const V dx = Lanes::load(px, part), dy = Lanes::load(py, part);
       const V d = root(mul_add(dx, dx, dy * dy));
@@ -112,20 +112,20 @@ void fuse_fan_planes(const TileArgs& a, const FanReading& q_in, Stats& stats) {
       }
       const auto touched = cls > V(0.5f);
       if (!Lanes::any(touched)) continue;
-      io.template fuse<Rule>(part, measure_beam(q, cls, d), touched, stats, max_k);
+      io.fuse(part, measure_beam(q, cls, d), touched, a.rule, stats, max_k);
     }
   }
   const float k = Lanes::reduce_max(max_k);
   if (k > stats.max_conflict) stats.max_conflict = k;
 }
 
-template <class Rule>
+template <class State>
 void fuse_fan(const TileArgs& a, const FanReading& q, Stats& stats) {
   if (a.micro_count + a.empty_count == 0) return;
   if (a.conflict_plane) {
-    fuse_fan_planes<Rule, true>(a, q, stats);
+    fuse_fan_planes<State, true>(a, q, stats);
   } else {
-    fuse_fan_planes<Rule, false>(a, q, stats);
+    fuse_fan_planes<State, false>(a, q, stats);
   }
 }
 

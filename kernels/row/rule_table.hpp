@@ -16,30 +16,38 @@
 #include "kernels/row/dense.hpp"
 #include "kernels/row/fuse_cone.hpp"
 #include "kernels/row/fuse_fan.hpp"
+#include "kernels/row/read_out.hpp"
 #include "kernels/row/tables.hpp"
 
 EVIGRID_CELL_BEGIN
 
-/// One allowed pair; the others stay null (engine/src/model_kernels.cpp refuses them by name).
-template <class Rule, class Model>
+/// One allowed pair; the others stay null (engine/src/model_rows.cpp refuses them by name).
+template <class State, class Model>
 void fill_pair(KernelTable& t, int rule, ConeModel model) {
-  t.fuse_cone[rule][model] = fuse_cone<Rule, Model>;
-  t.combine_measured[rule][model] = combine_measured<Rule, SourceOf<Model>>;
+  t.fuse_cone[rule][model] = fuse_cone<State, Model>;
+  t.combine_measured[rule][model] = combine_measured<State, SourceOf<Model>>;
 }
 
 /// The models that may hold mass on empty ∩ occupied.
-template <class Rule>
+template <class State>
 void fill_paradox_models(KernelTable& t, int rule) {
-  fill_pair<Rule, ModelLi2014>(t, rule, kLi2014);
-  fill_pair<Rule, ModelLi2006>(t, rule, kLi2006);
+  fill_pair<State, ModelLi2014>(t, rule, kLi2014);
+  fill_pair<State, ModelLi2006>(t, rule, kLi2006);
+}
+
+/// A state's part of the column: the models of masses, and fans.
+template <class State>
+void fill_state(KernelTable& t, int rule) {
+  fill_pair<State, ModelHughes1992>(t, rule, kHughes1992);
+  fill_pair<State, ModelOriolo1997>(t, rule, kOriolo1997);
+  fill_paradox_models<State>(t, rule);
+  t.fuse_fan[rule] = fuse_fan<State>;
+  t.read_out[rule] = read_out<State>;
 }
 
 template <class Rule>
 void fill_rule(KernelTable& t, int rule) {
-  fill_pair<Rule, ModelHughes1992>(t, rule, kHughes1992);
-  fill_pair<Rule, ModelOriolo1997>(t, rule, kOriolo1997);
-  fill_paradox_models<Rule>(t, rule);
-  t.fuse_fan[rule] = fuse_fan<Rule>;
+  fill_state<MassCells<Rule>>(t, rule);
   t.dense[rule] = dense<Rule>;
 }
 
@@ -50,8 +58,9 @@ void fill_paradox_rule(KernelTable& t, int rule, int otherwise) {
     t.fuse_cone[rule][model] = t.fuse_cone[otherwise][model];
     t.combine_measured[rule][model] = t.combine_measured[otherwise][model];
   }
-  fill_paradox_models<Rule>(t, rule);
+  fill_paradox_models<MassCells<Rule>>(t, rule);
   t.fuse_fan[rule] = t.fuse_fan[otherwise];
+  t.read_out[rule] = t.read_out[otherwise];
   t.dense[rule] = t.dense[otherwise];
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One target's table: every rule × model expanded from the same text, in several files, so that they compile side by
-// side: the models and the rules of table_*.cpp here, two more groups of rules in table_*_pcr.cpp and table_*_pcr14.cpp
-// (pcr_table.hpp). Included last.
+// side: the models and the rules of table_*.cpp here, more groups of rules in table_*_pcr.cpp, table_*_pcr14.cpp and
+// table_*_states.cpp (fill_*.hpp). Included last.
 #pragma once
 
 #include "kernels/cell/rule_batch.hpp"
@@ -33,8 +33,10 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   t.dense[kCautious] = dense<Cautious>;
   t.dense[kBayes] = dense<Bayes>;
   t.dense[kFuzzy] = dense<Fuzzy>;
+  t.dense[kDempsterLog] = dense<Dempster>;  // the same for two sources; what differs is the state of a map
   fill_pcr(t);
   fill_pcr14(t);
+  fill_states(t);
   return t;
 }
 

@@ -5,6 +5,7 @@
 // After the target.
 #include "kernels/row/fill_pcr.hpp"
 #include "kernels/row/fill_pcr14.hpp"
+#include "kernels/row/fill_states.hpp"
 #include "kernels/row/table.hpp"
 
 namespace evigrid::kernels {

@@ -194,6 +194,19 @@ void ReferenceMap::sweep(const Declared& declared, const Pose2& pose, double rad
 }
 
 void ReferenceMap::update(ReferenceCell& cell, const Source& source) {
+  const auto count = [&](double conflict, bool total) {
+    cell.conflict += conflict;
+    cell.con -= std::log(std::max(1 - conflict, 1e-12));
+    cell.last = conflict;
+    ++cell.updates;
+    ++report_.cells_updated;
+    report_.total_conflicts += total;
+    report_.max_conflict = std::max(report_.max_conflict, conflict);
+  };
+  if (const auto answer = update_state(params_, cell.state, source)) {
+    cell.e = answer->e, cell.o = answer->o, cell.u = answer->u, cell.c = answer->c;
+    return count(answer->conflict, false);
+  }
   Belief<double, 3> state{}, said{};
   state[kEmpty] = cell.e, state[kOccupied] = cell.o, state[kUnknown] = cell.u;
   said[kEmpty] = source.x, said[kOccupied] = source.y, said[kUnknown] = source.v, said[kBoth] = source.z;
@@ -201,11 +214,7 @@ void ReferenceMap::update(ReferenceCell& cell, const Source& source) {
   cell.e = fused.m[kEmpty] < kLeastMass ? 0 : fused.m[kEmpty];
   cell.o = fused.m[kOccupied] < kLeastMass ? 0 : fused.m[kOccupied];
   cell.u = std::max(fused.m[kUnknown], kLeastUnknown);
-  cell.conflict += fused.conflict;
-  ++cell.updates;
-  ++report_.cells_updated;
-  report_.total_conflicts += fused.total_conflict;
-  report_.max_conflict = std::max(report_.max_conflict, fused.conflict);
+  count(fused.conflict, fused.total_conflict);
 }
 
 }  // namespace oracle

@@ -5,6 +5,7 @@
 #include "evigrid/executor.hpp"
 #include "evigrid/io.hpp"
 #include "evigrid/map.hpp"
+#include "evigrid/readout.hpp"
 #include "evigrid/scan.hpp"
 #include "evigrid/sensor.hpp"
 #include "evigrid/types.hpp"

@@ -11,35 +11,34 @@
 namespace evigrid {
 namespace {
 
-constexpr int kSide = kernels::kTileSide;
+constexpr int kSide = kernels::kTileSide, kMicro = kernels::kMicroSide, kCells = kernels::kMicroCells;
 
-CellState state_at(const TileStore& store, const Tile& tile, int x, int y) noexcept {
+/// The masses of four rows of a tile's cells: the unit of reading. Micro-tiles beside each other lie one after the
+/// other, so it is one call of the kernel.
+struct Strip {
+  alignas(64) float masses[kernels::kMicrosPerSide * 4 * kCells];
+
+  void read(const TileStore& store, const Tile& tile, int y) {
+    store.layout().read_out(tile.cells.get() + store.cell_offset(0, y & ~3), store.planes(), kernels::kMicrosPerSide,
+                            masses);
+  }
+  [[nodiscard]] Mass at(int x, int y) const noexcept {
+    const float* p = masses + (x / kMicro) * 4 * kCells + (y % kMicro) * kMicro + x % kMicro;
+    return {p[0], p[kCells], p[2 * kCells], p[3 * kCells]};
+  }
+};
+
+void add_history(const TileStore& store, const Tile& tile, int x, int y, CellState& out) noexcept {
+  const CellLayout& l = store.layout();
   const float* p = tile.cells.get() + store.cell_offset(x, y);
-  return {{p[0], p[kernels::kMicroCells], p[2 * kernels::kMicroCells]},
-          store.planes() == 4 ? p[3 * kernels::kMicroCells] : 0.0f};
+  if (l.conflict >= 0) out.conflict = p[l.conflict * kCells];
+  if (l.con >= 0) out.con = p[l.con * kCells];
+  if (l.last_conflict >= 0) out.last_conflict = p[l.last_conflict * kCells];
 }
 
 bool vacuous(const Mass& m) noexcept { return m == Mass{}; }
 
-float value(Layer layer, const CellState& c) noexcept {
-  switch (layer) {
-    case Layer::betp:
-      return c.mass.o + c.mass.u * 0.5f;
-    case Layer::bel:
-      return c.mass.o;
-    case Layer::pl:
-      return c.mass.o + c.mass.u;
-    case Layer::empty:
-      return c.mass.e;
-    case Layer::unknown:
-      return c.mass.u;
-    case Layer::conflict:
-      return c.conflict;
-  }
-  return 0;
-}
-
-/// Row by row into the caller's buffer, one look-up of a tile for a run of cells.
+/// Four rows at a time into the caller's buffer, one look-up of a tile for a run of cells.
 template <class T, class F>
 void fill(const TileStore& store, CellRect rect, std::span<T> out, std::ptrdiff_t stride, F&& of) {
   if (rect.empty()) return;
@@ -47,16 +46,28 @@ void fill(const TileStore& store, CellRect rect, std::span<T> out, std::ptrdiff_
                       static_cast<std::size_t>(rect.width);
   if (stride < rect.width || out.size() < needed)
     throw std::invalid_argument("render: the buffer is smaller than the rectangle");
-  for (std::int64_t y = rect.y; y < rect.y + rect.height; ++y) {
-    T* row = out.data() + (y - rect.y) * stride;
-    for (std::int64_t x = rect.x; x < rect.x + rect.width;) {
-      const std::int64_t end = std::min((tile_coordinate(x) + 1) * kSide, rect.x + rect.width);
-      const Tile* tile = store.find(tile_of(x, y));
-      for (; x < end; ++x) {
-        *row++ = of(tile == nullptr ? CellState{}
-                                    : state_at(store, *tile, static_cast<int>(x & 63), static_cast<int>(y & 63)));
+  Strip strip;
+  for (std::int64_t y0 = rect.y; y0 < rect.y + rect.height;) {
+    const std::int64_t y1 = std::min((y0 | 3) + 1, rect.y + rect.height);
+    for (std::int64_t x0 = rect.x; x0 < rect.x + rect.width;) {
+      const std::int64_t x1 = std::min((tile_coordinate(x0) + 1) * kSide, rect.x + rect.width);
+      const Tile* tile = store.find(tile_of(x0, y0));
+      if (tile != nullptr) strip.read(store, *tile, static_cast<int>(y0 & 63));
+      for (std::int64_t y = y0; y < y1; ++y) {
+        T* row = out.data() + (y - rect.y) * stride + (x0 - rect.x);
+        for (std::int64_t x = x0; x < x1; ++x) {
+          CellState cell;
+          if (tile != nullptr) {
+            const int tx = static_cast<int>(x & 63), ty = static_cast<int>(y & 63);
+            cell.mass = strip.at(tx, ty);
+            add_history(store, *tile, tx, ty, cell);
+          }
+          *row++ = of(cell);
+        }
       }
+      x0 = x1;
     }
+    y0 = y1;
   }
 }
 
@@ -65,7 +76,7 @@ struct Costs {
 };
 
 int cost(const Costmap& c, const Mass& m, Costs costs) noexcept {
-  const double betp = m.o + 0.5 * m.u;
+  const double betp = value_of(Layer::betp, m);
   if (m.u > c.max_unknown) return costs.none;
   if (betp > c.lethal_above) return costs.lethal;
   if (betp < c.free_below) return 0;
@@ -86,20 +97,33 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t word) noexcept {
   return h ^ (h >> 29);
 }
 
+std::uint64_t two(float low, float high) noexcept {
+  return std::bit_cast<std::uint32_t>(low) | static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(high)) << 32;
+}
+
 }  // namespace
 
 CellState read_cell(const TileStore& store, CellIndex c) noexcept {
   const Tile* tile = store.find(tile_of(c.x, c.y));
-  return tile == nullptr ? CellState{} : state_at(store, *tile, static_cast<int>(c.x & 63), static_cast<int>(c.y & 63));
+  if (tile == nullptr) return {};
+  const int x = static_cast<int>(c.x & 63), y = static_cast<int>(c.y & 63);
+  alignas(64) float m[4 * kCells];
+  store.layout().read_out(tile->cells.get() + store.cell_offset(x & ~3, y & ~3), store.planes(), 1, m);
+  const float* p = m + (y % kMicro) * kMicro + x % kMicro;
+  CellState out{{p[0], p[kCells], p[2 * kCells], p[3 * kCells]}};
+  add_history(store, *tile, x, y, out);
+  return out;
 }
 
 CellRect occupied_bounds(const TileStore& store) {
   constexpr auto kMax = std::numeric_limits<std::int64_t>::max(), kMin = std::numeric_limits<std::int64_t>::min();
   std::int64_t x0 = kMax, x1 = kMin, y0 = kMax, y1 = kMin;
+  Strip strip;
   for (const auto& [at, tile] : store.tiles()) {
     for (int y = 0; y < kSide; ++y) {
+      if (y % kMicro == 0) strip.read(store, tile, y);
       for (int x = 0; x < kSide; ++x) {
-        if (vacuous(state_at(store, tile, x, y).mass)) continue;
+        if (vacuous(strip.at(x, y))) continue;
         x0 = std::min(x0, at.x * kSide + x), x1 = std::max(x1, at.x * kSide + x);
         y0 = std::min(y0, at.y * kSide + y), y1 = std::max(y1, at.y * kSide + y);
       }
@@ -109,8 +133,19 @@ CellRect occupied_bounds(const TileStore& store) {
   return {x0, y0, x1 - x0 + 1, y1 - y0 + 1};
 }
 
-void render_layer(const TileStore& store, Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) {
-  fill(store, rect, out, stride, [layer](const CellState& c) { return value(layer, c); });
+void render_layer(const TileStore& store, Layer layer, const ReadOutParams& params, CellRect rect,
+                  std::span<float> out, std::ptrdiff_t stride) {
+  const auto draw = [&](auto&& of) { fill(store, rect, out, stride, of); };
+  switch (layer) {
+    case Layer::conflict:
+      return draw([](const CellState& c) { return c.conflict; });
+    case Layer::con:
+      return draw([](const CellState& c) { return c.con; });
+    case Layer::last_conflict:
+      return draw([](const CellState& c) { return c.last_conflict; });
+    default:
+      return draw([&](const CellState& c) { return static_cast<float>(value_of(layer, c.mass, params)); });
+  }
 }
 
 std::int8_t occupancy_of(const Costmap& c, const Mass& m) noexcept {
@@ -134,19 +169,22 @@ void render_costmap(const TileStore& store, const Costmap& c, CellRect rect, std
 std::uint64_t hash_cells(const TileStore& store) {
   std::uint64_t h = 0x45564947524944ull;  // "EVIGRID"
   const auto& tiles = store.tiles();
+  std::vector<Strip> strips;
   for (auto band = tiles.begin(); band != tiles.end();) {
     auto band_end = band;
     while (band_end != tiles.end() && band_end->first.y == band->first.y) ++band_end;
+    strips.resize(static_cast<std::size_t>(std::distance(band, band_end)));
     for (int y = 0; y < kSide; ++y) {
-      for (auto it = band; it != band_end; ++it) {
+      auto strip = strips.begin();
+      for (auto it = band; it != band_end; ++it, ++strip) {
+        if (y % kMicro == 0) strip->read(store, it->second, y);
         for (int x = 0; x < kSide; ++x) {
-          const Mass m = state_at(store, it->second, x, y).mass;
+          const Mass m = strip->at(x, y);
           if (vacuous(m)) continue;
           h = mix(h, static_cast<std::uint64_t>(it->first.x * kSide + x));
           h = mix(h, static_cast<std::uint64_t>(it->first.y * kSide + y));
-          h = mix(h, std::bit_cast<std::uint32_t>(m.e) | static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(m.o))
-                                                             << 32);
-          h = mix(h, std::bit_cast<std::uint32_t>(m.u));
+          h = mix(h, two(m.e, m.o));
+          h = mix(h, two(m.u, m.c));  // c: 0 unless the rule keeps one
         }
       }
     }

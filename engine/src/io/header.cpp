@@ -18,7 +18,13 @@ void each_param(P& p, F&& f) {
   f("rule", p.rule);
   f("kernel", p.kernel);
   f("keep_conflict", p.keep_conflict);
+  f("keep_con", p.keep_con);
+  f("keep_last_conflict", p.keep_last_conflict);
+  f("bayes.likelihood", p.bayes.likelihood);
+  f("bayes.least_p", p.bayes.least_p);
+  f("bayes.most_p", p.bayes.most_p);
   f("memory_cap_bytes", p.memory_cap_bytes);
+  f("false_reflection_m", p.false_reflection_m);
 }
 
 template <class S, class F>
@@ -89,6 +95,7 @@ void write(std::string& out, std::string_view key, const T& value) {
 
 std::optional<Rule> from_name(Rule, std::string_view s) { return rule_from_name(s); }
 std::optional<Model> from_name(Model, std::string_view s) { return model_from_name(s); }
+std::optional<Likelihood> from_name(Likelihood, std::string_view s) { return likelihood_from_name(s); }
 std::optional<Kernel> from_name(Kernel, std::string_view s) { return kernel_from_name(s); }
 
 template <class T>

@@ -53,6 +53,9 @@ std::vector<ParamError> check(const Sensor& s) {
 std::vector<ParamError> check(const MapParams& p) {
   std::vector<ParamError> errors;
   check_rows<MapParams>(kMapRows, p, errors);
+  if (!(p.bayes.least_p < p.bayes.most_p)) errors.push_back({"map.bayes.least_p", "must be below most_p"});
+  if (p.keep_con && !p.keep_conflict) errors.push_back({"map.keep_con", "needs keep_conflict"});
+  if (p.keep_last_conflict && !p.keep_conflict) errors.push_back({"map.keep_last_conflict", "needs keep_conflict"});
   if (const auto why = why_not_in_maps(p.rule); !why.empty()) {
     errors.push_back(
         {"map.rule", "cannot be " + std::string(name(p.rule)) + ": " + std::string(why) + "; use it with combine"});

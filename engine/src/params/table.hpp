@@ -23,6 +23,10 @@ inline constexpr double kMaxReachCells = 65536;  // the lattice of docs/maths.md
 
 inline constexpr ParamRow<MapParams> kMapRows[] = {
     {"map.cell_m", "m", 1e-4, 100, [](const MapParams& p) { return p.cell_m; }, "ours"},
+    {"map.bayes.least_p", "", 1e-9, 0.5, [](const MapParams& p) { return p.bayes.least_p; }, "ours"},
+    {"map.bayes.most_p", "", 0.5, 1 - 1e-9, [](const MapParams& p) { return p.bayes.most_p; }, "ours"},
+    {"map.false_reflection_m", "m (below 0: off)", 0, 1e3,
+     [](const MapParams& p) { return p.false_reflection_m < 0 ? 0 : p.false_reflection_m; }, "Li et al. 2014"},
 };
 
 // Apertures above 40° would need a higher degree than the cubic fits of the cone's angular part have.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/gate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "model_rows.hpp"
+#include "scan/false_reflection.hpp"
 
 namespace evigrid {
 
@@ -111,10 +113,27 @@ void gate_fan(const Reading& reading, const CompiledSensor& c, const kernels::Se
   out.push_back(std::move(f));
 }
 
+/// What the filter compares: the range of each reading of a cone, NaN where the gate would refuse it anyway.
+std::vector<RingReading> ring_of(const Scan& scan, const std::vector<CompiledSensor>& sensors) {
+  std::vector<RingReading> ring;
+  for (std::size_t i = 0; i < scan.readings.size(); ++i) {
+    const Reading& r = scan.readings[i];
+    if (r.sensor >= sensors.size() || r.ranges_m.size() != 1) continue;
+    const Sensor& s = sensors[r.sensor].sensor;
+    if (s.model == Model::beam) continue;
+    const float range = r.ranges_m[0];
+    ring.push_back({i, s.T_robot_sensor.yaw_rad, refuse(s, range) ? std::nanf("") : range});
+  }
+  return ring;
+}
+
 }  // namespace
 
-void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, double cell_m, std::vector<Footprint>& out,
-               Report& report) {
+void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, const MapParams& params,
+               std::vector<Footprint>& out, Report& report) {
+  const double cell_m = params.cell_m;
+  std::vector<std::size_t> dropped;
+  if (params.false_reflection_m >= 0) dropped = false_reflections(ring_of(scan, sensors), params.false_reflection_m);
   for (const Reading& reading : scan.readings) {
     if (reading.sensor >= sensors.size()) {
       count(report, Refusal::unknown_sensor);
@@ -139,6 +158,10 @@ void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, dou
     const float range = reading.ranges_m[0];
     if (const auto why = refuse(s, range)) {
       count(report, *why);
+      continue;
+    }
+    if (std::binary_search(dropped.begin(), dropped.end(), static_cast<std::size_t>(&reading - scan.readings.data()))) {
+      count(report, Refusal::false_reflection);
       continue;
     }
     ++report.readings_used;
