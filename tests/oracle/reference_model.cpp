@@ -117,7 +117,7 @@ Source li2006(const evigrid::Li2006& p, const Along& at, EdgeAngles m) {
 Source moravec1985(const Along& at, EdgeAngles m) {
   const double lambda = lambda_of(m), border = at.range - at.width, depth = border - at.nearest;
   const double aperture = m.left_rad + m.right_rad, in_arc = 2 * aperture / 3 * (4 * at.width * at.range / 3);
-  Source s{0, 0, 0, 0};
+  Source s{0, 0, 0, 0, true};
   if (at.d < border && depth > 0) s.x = lambda * (1 - square((at.d - at.nearest) / depth));
   if (at.d >= border)
     s.y = lambda * (at.range + at.width - at.d) * (at.d - border) / square(at.width) / std::max(1.0, in_arc);
@@ -144,7 +144,7 @@ Source cone_model(const evigrid::Sensor& s, const Along& at, EdgeAngles m, Zone 
 }
 
 Source discount(const Source& s, double reliability) {
-  Source out{s.x * reliability, s.y * reliability, s.z * reliability, 0};
+  Source out{s.x * reliability, s.y * reliability, s.z * reliability, 0, s.yields};
   // v + (1 − ρ)(x + y + z), which is 1 − x − y − z after the discount, without cancellation.
   out.v = s.v + (1 - reliability) * (s.x + s.y + s.z);
   return out;

@@ -9,6 +9,7 @@ namespace oracle {
 /// Masses of one reading at one point; z = m(empty and occupied). Vacuous unless said otherwise.
 struct Source {
   double x = 0, y = 0, z = 0, v = 1;
+  bool yields = false;  ///< memberships whose y is cancelled by what the cell knows of empty
 };
 
 /// Where a point lies on the reading's way: before the occupied zone, in it, or in neither.

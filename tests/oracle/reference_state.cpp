@@ -91,7 +91,9 @@ std::optional<StateAnswer> update_state(const evigrid::MapParams& p, StateNumber
     }
     case Rule::fuzzy: {
       const Masses before = s.m;
-      const Masses joined = fuzzy<Long, 3>(frame, s.m, open, kBoth).m;
+      Masses taken = open;
+      if (source.yields) taken[kOccupied] *= (1 - before[kEmpty]) * (1 - open[kEmpty]);  // O(1 − Emp), after E
+      const Masses joined = fuzzy<Long, 3>(frame, s.m, taken, kBoth).m;
       s.m[kEmpty] = joined[kEmpty], s.m[kOccupied] = joined[kOccupied];
       return StateAnswer{floored(joined[kEmpty], kLeastMass), floored(joined[kOccupied], kLeastMass),
                          static_cast<double>(joined[kUnknown]), static_cast<double>(joined[kBoth]),
