@@ -66,7 +66,7 @@ void evaluate_points(const Args& args) {
   }
   const auto settings = parse_settings(args.params, s.model);
   require_used(settings, {args.model});
-  apply(settings, s);
+  apply_settings(settings, s);
   if (!(args.cell_m >= 1e-4 && args.cell_m <= 100)) throw InputError("--cell: must be within [0.0001, 100] m");
   if (const auto errors = check(s); !errors.empty())
     throw InputError(errors.front().field + " " + errors.front().reason);

@@ -69,7 +69,7 @@ Sensor configured(const LogSensor& from_log, const MappingOptions& o, bool mixed
     }
     if (fits) s.model = wanted;  // of lasers and sonars together, those of its kind are meant
   }
-  apply(parse_settings(o.params), s);
+  apply_settings(parse_settings(o.params), s);
   if (o.max_range_m) s.max_range_m = *o.max_range_m;
   if (fan) {  // beyond what the scanner can tell from "no return" there is nothing to clear
     s.max_range_m = std::min(s.max_range_m, s.no_return_m);

@@ -59,7 +59,7 @@ std::vector<ModelSetting> parse_settings(const std::vector<std::string>& texts, 
   return out;
 }
 
-void apply(const std::vector<ModelSetting>& settings, Sensor& sensor) {
+void apply_settings(const std::vector<ModelSetting>& settings, Sensor& sensor) {
   for (const ModelSetting& s : settings) {
     if (s.model == sensor.model) set_model_param(sensor, s.model, s.name, s.value);
   }

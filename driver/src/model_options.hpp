@@ -19,7 +19,7 @@ struct ModelSetting {
 /// Throws InputError. `implied`: the model of a bare NAME=VALUE.
 std::vector<ModelSetting> parse_settings(const std::vector<std::string>& texts, std::optional<Model> implied = {});
 /// Those of the sensor's own model.
-void apply(const std::vector<ModelSetting>& settings, Sensor& sensor);
+void apply_settings(const std::vector<ModelSetting>& settings, Sensor& sensor);
 /// Throws InputError for a setting of a model that is not among `used`: it would be ignored.
 void require_used(const std::vector<ModelSetting>& settings, const std::vector<std::string>& used);
 

@@ -41,6 +41,13 @@ struct YieldingSource {
   V x, y, v;
 };
 
+/// A probability as the Bayesian mass (x, y, 0), with gap = y − x right relatively: near ½ that difference is all it says.
+template <class V>
+struct ProbabilitySource {
+  static constexpr bool kYields = false;
+  V x, y, v, gap;
+};
+
 template <class V>
 EVIGRID_FN V scale(const Source<V>& m) {
   return m.s;
@@ -52,6 +59,19 @@ EVIGRID_FN V scale(const FaintSource<V>& m) {
 template <class V>
 EVIGRID_FN V scale(const PlainSource<V>&) {
   return V(1.0f);
+}
+template <class V>
+EVIGRID_FN V scale(const ProbabilitySource<V>&) {
+  return V(1.0f);
+}
+/// y − x.
+template <class V, class S>
+EVIGRID_FN V gap_of(const S& m) {
+  if constexpr (requires { m.gap; }) {
+    return m.gap;
+  } else {
+    return m.y - m.x;
+  }
 }
 
 /// What one combination gives: the new cell and the conflict k of the two normalised operands. Rules that can meet
@@ -147,6 +167,11 @@ EVIGRID_FN FaintSource<V> discount(const FaintSource<V>& m, const V& reliability
 }
 
 template <class V>
+EVIGRID_FN ProbabilitySource<V> discount(const ProbabilitySource<V>& m, const V& reliability, const V& doubt) {
+  return {m.x * reliability, m.y * reliability, mul_add(m.v, reliability, doubt), m.gap * reliability};
+}
+
+template <class V>
 EVIGRID_FN YieldingSource<V> discount(const YieldingSource<V>& m, const V& reliability, const V& doubt) {
   return {m.x * reliability, m.y * reliability, mul_add(m.v, reliability, doubt)};
 }
@@ -186,6 +211,11 @@ EVIGRID_FN FaintSource<V> drop_paradox(const FaintSource<V>& m) {
   return {m.x, m.y, m.v, V(0.0f), (m.x + m.y) + m.v, V(0.0f)};
 }
 
+template <class V>
+EVIGRID_FN ProbabilitySource<V> drop_paradox(const ProbabilitySource<V>& m) {
+  return m;
+}
+
 /// A source as memory holds it (kernel_table.hpp, Measured), and back: it keeps its kind, so that the fused and the
 /// unfused path run the same functions.
 template <class V>
@@ -208,6 +238,10 @@ template <class V>
 EVIGRID_FN Parts<V> widen(const YieldingSource<V>& m) {
   return {{m.x, m.y, m.v, V(0.0f), V(1.0f), V(0.0f)}};
 }
+template <class V>
+EVIGRID_FN Parts<V> widen(const ProbabilitySource<V>& m) {
+  return {{m.x, m.y, m.v, V(0.0f), V(1.0f), m.gap}};
+}
 template <class Kind, class V>
 EVIGRID_FN Kind narrow(const Parts<V>& p) {
   const auto& m = p.part;
@@ -215,6 +249,8 @@ EVIGRID_FN Kind narrow(const Parts<V>& p) {
     return {m[0], m[1], m[2], m[3], m[4], m[5]};
   } else if constexpr (requires(Kind k) { k.z; }) {
     return {m[0], m[1], m[2], m[3], m[4]};
+  } else if constexpr (requires(Kind k) { k.gap; }) {
+    return {m[0], m[1], m[2], m[5]};
   } else {
     return {m[0], m[1], m[2]};
   }

@@ -9,13 +9,13 @@ EVIGRID_CELL_BEGIN
 
 struct ModelProbability {
   template <class V>
-  static EVIGRID_FN PlainSource<V> measure(const ConeReading& q, const Polar<V>& p) {
+  static EVIGRID_FN ProbabilitySource<V> measure(const ConeReading& q, const Polar<V>& p) {
     const V zero(0.0f), one(1.0f), half(0.5f);
     const auto c = tanh_cone(q.tanh, p);
     const V after = one + c.t, b = max_of(one + after, zero);
     const V g = select(after < zero, mul_add(b, b, zero - one), after * c.rest);
     const V h = half * (c.share * g);
-    return {half - h, half + h, zero};
+    return {half - h, half + h, zero, h + h};
   }
 };
 

@@ -113,7 +113,7 @@ struct LogOdds {
   template <bool kConflict, class V, class S>
   static EVIGRID_FN Update<V, kPlanes> update(const V (&old)[kPlanes], const S& source, const RuleArgs& args) {
     const S m = drop_paradox(source);
-    const V zero(0.0f), p = m.y - m.x, size = max_of(p, zero - p);
+    const V zero(0.0f), p = gap_of<V>(m), size = max_of(p, zero - p);
     const V least = mul_add(m.v, V(args.unknown_share), min_of(m.x, m.y));
     const V step = log_one_plus(size / max_of(least, V(kLeastLikelihood) * scale(m)));
     const V l = old[0] + select(p < zero, zero - step, step);
