@@ -108,7 +108,8 @@ void add_model(CLI::App& app) {
       ->capture_default_str();
   command->footer(
       "Writes CSV d_m,theta_deg,e,o,u,c: masses of empty, occupied, unknown, and the paradoxical mass of li2006 and\n"
-      "li2014. probability: e = 1 - P, o = P. fuzzy, moravec1985: e and o are memberships, u = (1-e)(1-o) neither, c = e*o\n"
+      "li2014. probability: e = 1 - P, o = P. fuzzy, moravec1985: e and o are memberships, u = (1-e)(1-o) neither, c = "
+      "e*o\n"
       "both; no masses. Outside the model's support: 0,0,1,0.\n\n" +
       describe_model_params() +
       "\n"

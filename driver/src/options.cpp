@@ -90,7 +90,8 @@ std::shared_ptr<Executor> parse_executor(const std::string& text, int threads) {
 std::string describe_outputs() {
   return "Writes into DIR: map.png; map.yaml and map.pgm (ROS map_server); masses.npy (float32, 4 x height x width: e, "
          "o,\n"
-         "u, running sum of conflict, then c of rules that keep one; row 0 is the smallest y); map.evigrid (the whole map, for `evigrid show`, "
+         "u, running sum of conflict, then c of rules that keep one; row 0 is the smallest y); map.evigrid (the whole "
+         "map, for `evigrid show`, "
          "`evigrid\n"
          "info` and other programs); report.json (what was used, what was refused and why).\n\n"
          "--layers draws numbers with a colour bar (betp to costmap; con and last_conflict make the map keep them),\n"
@@ -119,8 +120,9 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("--reliability", o.reliability,
                      "Shafer discount in (0, 1] (default: 1 for lasers, 0.9 for sonars)");
   command.add_flag("--clear-no-return", o.clear_no_return, "lasers: a beam without return clears up to --max-range");
-  command.add_option("--bayes-likelihood", o.bayes_likelihood,
-                     "rule bayes: likelihoods of a reading from its masses by betp or plp (plp: Dempster's PlP)")
+  command
+      .add_option("--bayes-likelihood", o.bayes_likelihood,
+                  "rule bayes: likelihoods of a reading from its masses by betp or plp (plp: Dempster's PlP)")
       ->capture_default_str();
   command.add_option("--bayes-limits", o.bayes_limits, "rule bayes: least,most P(occupied) of a cell (0.001,0.999)")
       ->delimiter(',')

@@ -78,7 +78,8 @@ void warn_of_walls(const raycast::Scene& caster, const std::vector<scenes::Pose>
     if (crossings++ == 0) first = fmt::format("step {} near ({:.2f}, {:.2f})", i, a.x_m, a.y_m);
   }
   if (crossings > 0)
-    log.warnings.push_back(fmt::format("the robot drives through walls in {} of its steps, first in {}", crossings, first));
+    log.warnings.push_back(
+        fmt::format("the robot drives through walls in {} of its steps, first in {}", crossings, first));
 }
 
 void append(Log& log, std::size_t sensor, const float* first, std::size_t count) {
@@ -147,7 +148,10 @@ Simulated simulate(const scenes::Scene& scene, const CastOptions& options) {
   const scenes::Simulation simulation(copy, caster);
   require_memory(copy, simulation.steps());
   warn_of_walls(caster, simulation.poses(), out.log);
-  if (simulation.steps() == 1) out.log.warnings.push_back("the robot stands still: one scan only; in a tour it has no room to drive, try a smaller robot or another start");
+  if (simulation.steps() == 1)
+    out.log.warnings.push_back(
+        "the robot stands still: one scan only; in a tour it has no room to drive, try a smaller robot or another "
+        "start");
   Progress progress("casting");
   for (std::size_t at = 0; at < simulation.steps(); at += kBatch) {
     const std::size_t count = std::min(kBatch, simulation.steps() - at);

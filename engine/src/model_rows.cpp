@@ -26,12 +26,14 @@ constexpr auto kAll = [] {
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = kRows[i].model;
   return out;
 }();
-static_assert([] {
-  for (std::size_t i = 0; i < kRows.size(); ++i) {
-    if (static_cast<std::size_t>(kRows[i].model) != i) return false;
-  }
-  return true;
-}(), "rows in the order of Model");
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kRows.size(); ++i) {
+        if (static_cast<std::size_t>(kRows[i].model) != i) return false;
+      }
+      return true;
+    }(),
+    "rows in the order of Model");
 
 std::string_view short_name(const ParamRow<Sensor>& row) { return row.field.substr(row.field.rfind('.') + 1); }
 
@@ -60,7 +62,8 @@ std::span<const Model> all_models() noexcept { return kAll; }
 
 std::string_view why_not_together(Rule rule, Model m) noexcept {
   const ModelRow& row = model_row(m);
-  if (row.says == memberships && rule != Rule::fuzzy) return "it says memberships, which are no masses; its rule is fuzzy";
+  if (row.says == memberships && rule != Rule::fuzzy)
+    return "it says memberships, which are no masses; its rule is fuzzy";
   if (row.says == probability && rule != Rule::bayes) return "it says a probability and no masses; its rule is bayes";
   return "";
 }

@@ -41,7 +41,8 @@ struct YieldingSource {
   V x, y, v;
 };
 
-/// A probability as the Bayesian mass (x, y, 0), with gap = y − x right relatively: near ½ that difference is all it says.
+/// A probability as the Bayesian mass (x, y, 0), with gap = y − x right relatively: near ½ that difference is all it
+/// says.
 template <class V>
 struct ProbabilitySource {
   static constexpr bool kYields = false;
@@ -163,7 +164,8 @@ EVIGRID_FN PlainSource<V> discount(const PlainSource<V>& m, const V& reliability
 
 template <class V>
 EVIGRID_FN FaintSource<V> discount(const FaintSource<V>& m, const V& reliability, const V& doubt) {
-  return {m.x * reliability, m.y * reliability, mul_add(m.v, reliability, m.s * doubt), m.z * reliability, m.s, m.share};
+  return {
+      m.x * reliability, m.y * reliability, mul_add(m.v, reliability, m.s * doubt), m.z * reliability, m.s, m.share};
 }
 
 template <class V>

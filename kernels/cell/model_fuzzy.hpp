@@ -16,8 +16,8 @@ struct ModelFuzzy {
     const auto c = tanh_cone(k, p);
     const V before = min_of(max_of(zero - c.t, zero), one);
     const V x = settle_source(c.share * (V(k.k_empty) * (before * before)));
-    const V shape = k.as_printed ? select(p.outer < zero, min_of(c.t * c.t, one), zero)
-                                 : max_of((one + c.t) * c.rest, zero);
+    const V shape =
+        k.as_printed ? select(p.outer < zero, min_of(c.t * c.t, one), zero) : max_of((one + c.t) * c.rest, zero);
     const V y = settle_source(c.share * (V(k.k_occupied) * shape));
     return {x, y, max_of(one - (x + y), zero)};
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // moravec1985 (Moravec & Elfes 1985): memberships x = λ·E of empty and y = λ·O/N of occupied,
 //   E = 1 − ((d − Rmin)/(R − ε − Rmin))² on [Rmin, R − ε], O = 1 − ((d − R)/ε)² on [R − ε, R + ε].
-// The rule takes x and y by algebraic sums, y cancelled by what the cell knows of empty: O' = O(1 − Emp). Ours: the paper
-// divides O' by its sum over all cells of the reading; we divide O by N, the same sum without cancellation as an integral
-// over the arc (never below 1), known before any cell is looked at, so that no tile waits for another.
+// The rule takes x and y by algebraic sums, y cancelled by what the cell knows of empty: O' = O(1 − Emp). Ours: the
+// paper divides O' by its sum over all cells of the reading; we divide O by N, the same sum without cancellation as an
+// integral over the arc (never below 1), known before any cell is looked at, so that no tile waits for another.
 #pragma once
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/polar.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// oriolo1997 (Oriolo, Ulivi & Vendittelli 1997, as masses by Asharif et al. 2001): m(empty) = γρ·fE, m(occupied) = γρ·fO,
-//   fE = kE for d < R − Δ, kE((R − d)/Δ)² on [R − Δ, R), 0 beyond; fO = kO[1 − ((d − R)/Δ)²] on [R − Δ, R + Δ), 0 elsewhere.
+// oriolo1997 (Oriolo, Ulivi & Vendittelli 1997, as masses by Asharif et al. 2001): m(empty) = γρ·fE,
+// m(occupied) = γρ·fO,
+//   fE = kE for d < R − Δ, kE((R − d)/Δ)² on [R − Δ, R), 0 beyond,
+//   fO = kO[1 − ((d − R)/Δ)²] on [R − Δ, R + Δ), 0 elsewhere.
 // fE + fO ≤ max(kE, kO) ≤ 1 everywhere, so there is nothing to clamp. All pieces meet continuously: no exact border but
 // the far end.
 #pragma once

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What oriolo1997, fuzzy and probability share (Oriolo et al. 1997; Li, Huang & Dezert 2006, eq. 14.11–14.12): the place
-// in the arc t = (d − R)/Δ, and how far the reading is believed there, γ(θ)·ρ(d). γ = 1 − θ²/2 (θ in radians) =
-// 1 − α²(1 − λ)/2; ρ = ½(1 − tanh 2(d − ρv)) = 1/(1 + e^4(d − ρv)), metres. Repaired: γ ends at the cone's own edge, not
-// at 12.5° for every cone; where ρ is below 2.1e-9 (d > ρv + 5 m) the reading says nothing. d − R and the distance to
-// the far end come from the exact rings (no difference of rounded distances); one division does for all quotients.
+// What oriolo1997, fuzzy and probability share (Oriolo et al. 1997; Li, Huang & Dezert 2006, eq. 14.11–14.12): the
+// place in the arc t = (d − R)/Δ, and how far the reading is believed there, γ(θ)·ρ(d). γ = 1 − θ²/2 (θ in radians) =
+// 1 − α²(1 − λ)/2; ρ = ½(1 − tanh 2(d − ρv)) = 1/(1 + e^4(d − ρv)), metres. Repaired: γ ends at the cone's own edge,
+// not at 12.5° for every cone; where ρ is below 2.1e-9 (d > ρv + 5 m) the reading says nothing. d − R and the distance
+// to the far end come from the exact rings (no difference of rounded distances); one division does for all quotients.
 #pragma once
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/polar.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One row a cone model: how far it reaches, where its own ring lies, and its constants as floats. Lengths on the lattice
-// of docs/maths.md; constants in double first.
+// One row a cone model: how far it reaches, where its own ring lies, and its constants as floats. Lengths on the
+// lattice of docs/maths.md; constants in double first.
 #include "kernels/row/compile_cone.hpp"
 
 #include <algorithm>
@@ -159,13 +159,11 @@ void moravec_constants(const ConeType& t, const Rounding& to, double r, ConeRead
   k.occupied = rounded(1 / (epsilon * epsilon * n));
 }
 
-constexpr Row kRows[kConeModels] = {{hughes_reach, hughes_limits, hughes_constants},
-                                    {li2014_reach, li2014_limits, li2014_constants},
-                                    {tanh_reach, tanh_limits, tanh_constants},
-                                    {li2006_reach, li2006_limits, li2006_constants},
-                                    {tanh_reach, tanh_limits, tanh_constants},
-                                    {tanh_reach, tanh_limits, tanh_constants},
-                                    {moravec_reach, moravec_limits, moravec_constants}};
+constexpr Row kRows[kConeModels] = {
+    {hughes_reach, hughes_limits, hughes_constants},   {li2014_reach, li2014_limits, li2014_constants},
+    {tanh_reach, tanh_limits, tanh_constants},         {li2006_reach, li2006_limits, li2006_constants},
+    {tanh_reach, tanh_limits, tanh_constants},         {tanh_reach, tanh_limits, tanh_constants},
+    {moravec_reach, moravec_limits, moravec_constants}};
 
 }  // namespace
 

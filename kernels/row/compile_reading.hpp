@@ -13,8 +13,8 @@ namespace evigrid::kernels {
 struct ConeSpec {
   int model = kLi2014;  // a ConeModel
   double cell_m, aperture_rad, min_range_m, max_range_m, reliability;
-  double r_max_m, max_occupied, tolerance_m;         // hughes1992
-  double rho_e, rho_o, rho_c, rho_i, epsilon_ratio;  // li2014
+  double r_max_m, max_occupied, tolerance_m;                              // hughes1992
+  double rho_e, rho_o, rho_c, rho_i, epsilon_ratio;                       // li2014
   double width_m = 0.15, rho_v_m = 1.2, k_empty = 0.1, k_occupied = 0.5;  // oriolo1997, fuzzy, probability
   bool as_printed = false;                                                // fuzzy
   double li2006_rho_v = 1, li2006_epsilon_m = 0.1;

@@ -13,7 +13,16 @@ struct Ring {
 inline constexpr int kOuter = 0, kInner = 1, kEdge = 2;
 
 /// Models of a cone, in the order of the tables' columns.
-enum ConeModel : int { kHughes1992, kLi2014, kOriolo1997, kLi2006, kProbability, kFuzzyModel, kMoravec1985, kConeModels };
+enum ConeModel : int {
+  kHughes1992,
+  kLi2014,
+  kOriolo1997,
+  kLi2006,
+  kProbability,
+  kFuzzyModel,
+  kMoravec1985,
+  kConeModels
+};
 
 struct LiConstants {
   float lambda[4], shell[4];
@@ -37,7 +46,8 @@ struct TanhConstants {
 struct Li2006Constants {
   float lambda[4], off_axis[4];
   float rest;  // 0; 1, with no λ: as printed
-  float range, range_twice, range_inverse_square, occupied_rate, occupied_rate_rest, both_slope, both_offset, unknown_rate;
+  float range, range_twice, range_inverse_square, occupied_rate, occupied_rate_rest, both_slope, both_offset,
+      unknown_rate;
 };
 struct MoravecConstants {
   float lambda[4];
@@ -52,7 +62,7 @@ struct ConeReading {
   Ring ring[3];                          // farthest, nearest, and the model's own edge
   float outer = 0;                       // farthest distance
   float reliability = 1, doubt = 0;      // doubt = 1 − reliability
-  union {  // of the sensor's model
+  union {                                // of the sensor's model
     LiConstants li{};
     HughesConstants hughes;
     TanhConstants tanh;
@@ -69,11 +79,11 @@ struct FanReading {
   const float* range = nullptr;     // per beam, quantised; kNoBeam where refused
   const float* border_x = nullptr;  // beams + 1 directions between the beams
   const float* border_y = nullptr;
-  float mid_cos = 1, mid_sin = 0;  // middle of the fan, only to find candidates
+  float mid_cos = 1, mid_sin = 0;                            // middle of the fan, only to find candidates
   float beams_per_rad = 0, half_beams = 0, angle_slack = 0;  // slack in beams
   float half_angle = 0;                                      // half of the fan's opening, radians
-  // Extreme ranges over 2^l beams from i at reach[l · stride + i]: the largest (rounded up) in the high and the smallest
-  // (rounded down) in the low 16 bits, in units of reach_unit cells. A whole turn is stored twice over.
+  // Extreme ranges over 2^l beams from i at reach[l · stride + i]: the largest (rounded up) in the high and the
+  // smallest (rounded down) in the low 16 bits, in units of reach_unit cells. A whole turn is stored twice over.
   const std::uint32_t* reach = nullptr;
   int reach_stride = 0, reach_levels = 0;
   float reach_unit = 1;

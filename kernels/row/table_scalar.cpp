@@ -22,8 +22,8 @@ PointMass point(const ConeReading& q, const scalar::Polar<float>& p) {
   return {m.part[0], m.part[1], m.part[2], m.part[3], m.part[4]};
 }
 constexpr PointMass (*kPoint[kConeModels])(const ConeReading&, const scalar::Polar<float>&) = {
-    point<scalar::ModelHughes1992>,  point<scalar::ModelLi2014>, point<scalar::ModelOriolo1997>,
-    point<scalar::ModelLi2006>,      point<scalar::ModelProbability>, point<scalar::ModelFuzzy>,
+    point<scalar::ModelHughes1992>, point<scalar::ModelLi2014>,      point<scalar::ModelOriolo1997>,
+    point<scalar::ModelLi2006>,     point<scalar::ModelProbability>, point<scalar::ModelFuzzy>,
     point<scalar::ModelMoravec1985>};
 }  // namespace
 

@@ -28,7 +28,8 @@ Json run_of(const TempDir& dir, const std::string& text, std::vector<std::string
 }
 
 TEST(ModelCommand, EveryConeModelAnswers) {
-  for (const std::string model : {"hughes1992", "oriolo1997", "li2006", "li2014", "probability", "fuzzy", "moravec1985"}) {
+  for (const std::string model :
+       {"hughes1992", "oriolo1997", "li2006", "li2014", "probability", "fuzzy", "moravec1985"}) {
     const Ran ran = evigrid({"model", model, "--reading", "1.5", "--at", "1.2,0", "--at", "1.5,3"});
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_TRUE(starts_with(ran.out, "d_m,theta_deg,e,o,u,c\n1.2,0,")) << ran.out;
@@ -79,10 +80,12 @@ TEST(ModelOptions, ASceneSaysTheSameAsTheCommandLine) {
                               {"--param", "li2006.epsilon_m=0.3", "--param", "li2006.discount_by_lambda=false"});
   EXPECT_EQ(by_scene["map_hash"], by_line["map_hash"]);
   EXPECT_NE(by_scene["map_hash"], plain["map_hash"]);
-  const Ran wrong = evigrid({"run", dir.write("w.toml", scene("[robot.sensor.li2006]\nepsilon = 0.3\n")), "-o", dir.at("o")});
+  const Ran wrong =
+      evigrid({"run", dir.write("w.toml", scene("[robot.sensor.li2006]\nepsilon = 0.3\n")), "-o", dir.at("o")});
   EXPECT_EQ(wrong.code, 2);
   EXPECT_TRUE(contains(wrong.err, "robot.sensor.li2006.epsilon")) << wrong.err;
-  const Ran range = evigrid({"run", dir.write("r.toml", scene("[robot.sensor.li2006]\nepsilon_m = 3\n")), "-o", dir.at("o")});
+  const Ran range =
+      evigrid({"run", dir.write("r.toml", scene("[robot.sensor.li2006]\nepsilon_m = 3\n")), "-o", dir.at("o")});
   EXPECT_EQ(range.code, 2);
   EXPECT_TRUE(contains(range.err, "epsilon_m")) << range.err;
 }
@@ -99,8 +102,9 @@ TEST(ModelOptions, TheFilterDropsAndCounts) {
 
 TEST(ModelOptions, CompareTakesThePairsThatFit) {
   const TempDir dir;
-  const Ran ran = evigrid({"compare", dir.write("s.toml", scene("")), "-o", dir.at("out"), "--rules", "pcr5,bayes,fuzzy",
-                           "--models", "li2006,probability,fuzzy,moravec1985", "--param", "li2006.epsilon_m=0.2", "--json", "-"});
+  const Ran ran =
+      evigrid({"compare", dir.write("s.toml", scene("")), "-o", dir.at("out"), "--rules", "pcr5,bayes,fuzzy",
+               "--models", "li2006,probability,fuzzy,moravec1985", "--param", "li2006.epsilon_m=0.2", "--json", "-"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   std::set<std::string> pairs;
   const Json report = Json::parse(ran.out);
@@ -108,8 +112,8 @@ TEST(ModelOptions, CompareTakesThePairsThatFit) {
     pairs.insert(row["rule"].get<std::string>() + ' ' + row["model"].get<std::string>());
     EXPECT_GT(row["score"]["within_one_cell"]["precision"], 0.2) << row.dump();
   }
-  EXPECT_EQ(pairs, (std::set<std::string>{"pcr5 li2006", "bayes li2006", "fuzzy li2006", "bayes probability", "fuzzy fuzzy",
-                                          "fuzzy moravec1985"}));
+  EXPECT_EQ(pairs, (std::set<std::string>{"pcr5 li2006", "bayes li2006", "fuzzy li2006", "bayes probability",
+                                          "fuzzy fuzzy", "fuzzy moravec1985"}));
   const Ran none = evigrid({"compare", dir.at("s.toml"), "-o", dir.at("no"), "--rules", "pcr5", "--models", "fuzzy"});
   EXPECT_EQ(none.code, 2);
   EXPECT_TRUE(contains(none.err, "cannot be fused by pcr5")) << none.err;

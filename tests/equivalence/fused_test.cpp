@@ -43,7 +43,7 @@ TEST(Fused, EqualsUnfused) {
         const ConeType type({model, 0.05, 0.35, 0.1, 5, 0.93, 7.62, 0.98, 0.15, 0.35, 0.1, 80, 10, 0.01});
         auto fused = std::make_unique<TileBuffer>(planes), unfused = std::make_unique<TileBuffer>(planes);
         Stats a, b;
-        for (int i = 0; i < 30; ++i) {
+        for (int i = 0; i < 40; ++i) {
           const ConeReading q = compile_cone(type, {3.2 * u(rng), 3.2 * u(rng), 6.3 * u(rng)}, 0.3 + 3 * u(rng));
           TileArgs args;
           args.planes = static_cast<int>(planes.size());
@@ -61,7 +61,8 @@ TEST(Fused, EqualsUnfused) {
         EXPECT_GT(a.cells, 2000u);  // the comparison is not of nothing
         EXPECT_EQ(a.cells, b.cells);
         EXPECT_EQ(a.max_conflict, b.max_conflict);
-        EXPECT_EQ(0, std::memcmp(fused->cells, unfused->cells, sizeof fused->cells)) << table_name << name(map_rule) << model;
+        EXPECT_EQ(0, std::memcmp(fused->cells, unfused->cells, sizeof fused->cells))
+            << table_name << name(map_rule) << model;
       }
     }
   }

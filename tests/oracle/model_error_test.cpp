@@ -70,8 +70,8 @@ double error_of(const Case& c, double along, double beside, double heading_rad, 
   const double cell = c.cell_m, reach = reach_cells(s, cell);
   k::ConeSpec spec{};
   const int cone = static_cast<int>(s.model);
-  constexpr int kOf[] = {k::kHughes1992, k::kOriolo1997, k::kLi2006, k::kLi2014, k::kProbability, k::kFuzzyModel,
-                         k::kMoravec1985};
+  constexpr int kOf[] = {k::kHughes1992,  k::kOriolo1997, k::kLi2006,     k::kLi2014,
+                         k::kProbability, k::kFuzzyModel, k::kMoravec1985};
   spec = {kOf[cone],
           cell,
           s.aperture_rad,
@@ -109,7 +109,8 @@ double error_of(const Case& c, double along, double beside, double heading_rad, 
   k::find_table("auto")->measure_cone[spec.model](args, q, *measured);
 
   const Lattice lattice(reach);
-  const Direction left = direction(heading_rad + s.aperture_rad / 2), right = direction(heading_rad - s.aperture_rad / 2);
+  const Direction left = direction(heading_rad + s.aperture_rad / 2),
+                  right = direction(heading_rad - s.aperture_rad / 2);
   Along at;
   at.range = lattice.round(c.range_m / cell), at.cell_m = cell;
   at.nearest = std::max(lattice.round(s.min_range_m / cell), lattice.step());

@@ -86,7 +86,8 @@ Source fuzzy(const evigrid::Fuzzy& p, const Along& at, EdgeAngles m) {
     if (at.d >= at.range - at.width) occupied *= square((at.range - at.d) / at.width);
     if (at.d >= at.range + at.width) occupied = 0;
   }
-  return {share * empty_part(at, p.k_empty), share * occupied, 0, 0};
+  const double empty = share * empty_part(at, p.k_empty);
+  return {empty, share * occupied, 0, std::max(0.0, 1 - empty - share * occupied)};
 }
 
 Source probability(const evigrid::Probability& p, const Along& at, EdgeAngles m) {
@@ -121,6 +122,7 @@ Source moravec1985(const Along& at, EdgeAngles m) {
   if (at.d < border && depth > 0) s.x = lambda * (1 - square((at.d - at.nearest) / depth));
   if (at.d >= border)
     s.y = lambda * (at.range + at.width - at.d) * (at.d - border) / square(at.width) / std::max(1.0, in_arc);
+  s.v = 1 - s.x - s.y;
   return s;
 }
 

@@ -43,7 +43,7 @@ TEST(FalseReflection, TheThirdOfThreeNeighboursIsDropped) {
 TEST(FalseReflection, WhoHasNoNeighboursStays) {
   const float none = std::numeric_limits<float>::infinity();
   EXPECT_EQ(dropped(fuse_ring({0, 20}, {2.0F, 4.0F}, 0.1)), 0U);
-  EXPECT_EQ(dropped(fuse_ring({0, 20, 90}, {2.0F, 2.1F, 3.6F}, 0.1)), 0U);   // 70 degrees apart
+  EXPECT_EQ(dropped(fuse_ring({0, 20, 90}, {2.0F, 2.1F, 3.6F}, 0.1)), 0U);  // 70 degrees apart
   EXPECT_EQ(dropped(fuse_ring({0, 20, 40}, {none, 2.1F, 3.6F}, 0.1)), 0U);  // no reading to compare with
   EXPECT_EQ(dropped(fuse_ring({0, 20, 40}, {2.0F, 2.1F, none}, 0.1)), 0U);
 }
@@ -65,7 +65,8 @@ TEST(FalseReflection, RandomRingsByTheDefinition) {
     std::uint64_t want = 0;
     for (int i = 0; i < count; ++i) {
       const float d1 = ranges[static_cast<std::size_t>((i + count - 2) % count)],
-                  d2 = ranges[static_cast<std::size_t>((i + count - 1) % count)], d3 = ranges[static_cast<std::size_t>(i)];
+                  d2 = ranges[static_cast<std::size_t>((i + count - 1) % count)],
+                  d3 = ranges[static_cast<std::size_t>(i)];
       if (std::fabs(static_cast<double>(d3) - d2) < std::fabs(static_cast<double>(d1) - d2) + 0.1) {
         kept_at.push_back(at[static_cast<std::size_t>(i)]), kept.push_back(d3);
       } else {

@@ -83,7 +83,8 @@ TEST(Params, PairsThatDoNotFitAreRefusedByName) {
   int allowed = 0;
   for (const Rule rule : map_rules()) {
     for (const Model model : all_models()) {
-      const bool probability = model == Model::probability, member = model == Model::fuzzy || model == Model::moravec1985;
+      const bool probability = model == Model::probability,
+                 member = model == Model::fuzzy || model == Model::moravec1985;
       const bool fits = probability ? rule == Rule::bayes : !member || rule == Rule::fuzzy;
       EXPECT_EQ(why_not_together(rule, model).empty(), fits) << name(rule) << ' ' << name(model);
       Map map({.rule = rule}, make_serial_executor());
@@ -99,9 +100,9 @@ TEST(Params, PairsThatDoNotFitAreRefusedByName) {
         map.add(s);
         ADD_FAILURE() << name(rule) << ' ' << name(model);
       } catch (const std::invalid_argument& e) {
-        EXPECT_NE(std::string(e.what()).find(std::string(name(model)) + " cannot be fused by " +
-                                             std::string(name(rule))),
-                  std::string::npos)
+        EXPECT_NE(
+            std::string(e.what()).find(std::string(name(model)) + " cannot be fused by " + std::string(name(rule))),
+            std::string::npos)
             << e.what();
       }
     }

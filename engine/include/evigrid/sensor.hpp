@@ -117,8 +117,8 @@ struct ModelMass {
 };
 /// probability: e = 1 − P, o = P. fuzzy, moravec1985: e and o are memberships, u = (1 − e)(1 − o), c = e·o.
 /// @param range_m reading; @param distance_m, theta_rad the point, from the sensor and off its axis.
-/// @param cell_m side of the cells; only moravec1985, whose occupied membership is shared by the cells of the arc, asks.
-/// Outside the support of the model the answer is vacuous. Throws std::invalid_argument for a bad sensor.
+/// @param cell_m side of the cells; only moravec1985, whose occupied membership is shared by the cells of the arc,
+/// asks. Outside the support of the model the answer is vacuous. Throws std::invalid_argument for a bad sensor.
 [[nodiscard]] ModelMass evaluate(const Sensor&, double range_m, double distance_m, double theta_rad,
                                  double cell_m = 0.01);
 

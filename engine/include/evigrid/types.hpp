@@ -65,16 +65,7 @@ inline constexpr int kRuleCount = 19, kMapRuleCount = 18;
 
 /// Inverse sensor models: sonar cones, and beam, a fan of laser beams. probability says P(occupied), fuzzy and
 /// moravec1985 say memberships of two sets, all others masses.
-enum class Model : std::uint8_t {
-  hughes1992,
-  oriolo1997,
-  li2006,
-  li2014,
-  probability,
-  fuzzy,
-  moravec1985,
-  beam
-};
+enum class Model : std::uint8_t { hughes1992, oriolo1997, li2006, li2014, probability, fuzzy, moravec1985, beam };
 inline constexpr int kModelCount = 8;
 
 /// Which table of kernels runs. `automatic` takes the widest that the processor supports.

@@ -48,9 +48,13 @@ template <auto Part, auto Field>
 constexpr ParamRow<Sensor> row(std::string_view field, std::string_view unit, double least, double most,
                                std::string_view source) {
   using Number = std::remove_cvref_t<decltype((std::declval<Sensor&>().*Part).*Field)>;
-  return {field,  unit,   least,
-          most,   [](const Sensor& s) { return static_cast<double>((s.*Part).*Field); },
-          source, [](Sensor& s, double v) { (s.*Part).*Field = static_cast<Number>(v); },
+  return {field,
+          unit,
+          least,
+          most,
+          [](const Sensor& s) { return static_cast<double>((s.*Part).*Field); },
+          source,
+          [](Sensor& s, double v) { (s.*Part).*Field = static_cast<Number>(v); },
           std::is_same_v<Number, bool>};
 }
 

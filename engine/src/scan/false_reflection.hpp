@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// False reflections (Li et al. 2014): sound that comes back over a second surface makes one sonar of a ring read another
-// range than its neighbours. Δ = |d1 − d2| of two neighbours is what the scene itself does there; the next one stays when
-// |d3 − d2| < Δ + tolerance.
+// False reflections (Li et al. 2014): sound that comes back over a second surface makes one sonar of a ring read
+// another range than its neighbours. Δ = |d1 − d2| of two neighbours is what the scene itself does there; the next one
+// stays when |d3 − d2| < Δ + tolerance.
 #pragma once
 #include <cstddef>
 #include <vector>

@@ -36,8 +36,8 @@ struct MapSpec {
 using ModelParameters = std::map<std::string, std::map<std::string, double>>;
 
 struct SonarSpec {
-  Pose T_robot_sensor;      ///< the cone looks along its x axis
-  std::string model;        ///< name of the inverse sensor model
+  Pose T_robot_sensor;  ///< the cone looks along its x axis
+  std::string model;    ///< name of the inverse sensor model
   ModelParameters parameters;
   double aperture_rad = 0;  ///< full opening
   double min_range_m = 0, max_range_m = 0;
