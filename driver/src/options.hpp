@@ -17,6 +17,7 @@ struct MappingOptions {
   std::string rule = "pcr5";
   std::string model;  ///< empty: beam for lasers, li2014 for sonars
   std::optional<double> cell_m, max_range_m, reliability;
+  std::vector<double> contextual;  ///< empty, or reliability if empty and if occupied
   bool clear_no_return = false;
   std::string bayes_likelihood = "betp";
   std::vector<double> bayes_limits;  ///< empty, or least and most P(occupied)

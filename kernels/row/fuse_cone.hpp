@@ -2,6 +2,7 @@
 // The loop over the micro-tiles of one tile for one cone: centre → polar → model → discount → rule → store, in
 // registers.
 #pragma once
+#include "kernels/cell/discount.hpp"
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/polar.hpp"
 #include "kernels/cell/poly.hpp"
@@ -138,7 +139,7 @@ void fuse_cone_planes(const TileArgs& a, const ConeReading& q_in, Stats& stats) 
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
       if (!Lanes::any(at.inside)) continue;
-      const auto source = discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt));
+      const auto source = discounted(q, Model::measure(q, at.polar));
       io.fuse(part, source, at.inside, a.rule, stats, max_k);
     }
   }
@@ -193,8 +194,7 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
     std::uint64_t bits = 0;
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
-      const Source<Lanes::V> s =
-          widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt)));
+      const Source<Lanes::V> s = widen(discounted(q, Model::measure(q, at.polar)));
       alignas(64) float masses[5][Lanes::kLanes];
       const Lanes::V* const from[5] = {&s.x, &s.y, &s.v, &s.z, &s.s};
       float* const to[5] = {out.x, out.y, out.v, out.z, out.s};

@@ -17,9 +17,8 @@ const KernelTable& scalar_table() noexcept {
 
 PointMass measure_point(int cone_model, const ConeReading& q, float nl, float nr, float d2, float edge) {
   const scalar::Polar<float> p{nl, nr, d2, edge};
-  const auto s = cone_model == 0
-                     ? scalar::widen(scalar::discount(scalar::ModelHughes1992::measure(q, p), q.reliability, q.doubt))
-                     : scalar::discount(scalar::ModelLi2014::measure(q, p), q.reliability, q.doubt);
+  const auto s = cone_model == 0 ? scalar::widen(scalar::discounted(q, scalar::ModelHughes1992::measure(q, p)))
+                                 : scalar::discounted(q, scalar::ModelLi2014::measure(q, p));
   return {s.x, s.y, s.v, s.z, s.s};
 }
 

@@ -25,5 +25,8 @@ Source beam(const evigrid::Sensor&, double d_m, Zone);
 
 /// Shafer's discount.
 Source discount(const Source&, double reliability);
+/// Contextual discounting by its definition: the disjunctive rule with, for each hypothesis, mass β on nothing and 1 − β
+/// on the hypothesis.
+Source contextual(const Source&, double reliability_if_empty, double reliability_if_occupied);
 
 }  // namespace oracle

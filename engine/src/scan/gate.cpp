@@ -20,7 +20,9 @@ kernels::ConeSpec cone_spec(const Sensor& s, double cell_m) {
           s.li.rho_o,
           s.li.rho_c,
           s.li.rho_i,
-          s.li.epsilon_ratio};
+          s.li.epsilon_ratio,
+          s.reliability_if_empty,
+          s.reliability_if_occupied};
 }
 
 kernels::FanSpec fan_spec(const Sensor& s, double cell_m) {
@@ -34,7 +36,9 @@ kernels::FanSpec fan_spec(const Sensor& s, double cell_m) {
           s.beam.empty,
           s.beam.occupied,
           s.beam.empty_margin_m,
-          s.beam.occupied_half_width_m};
+          s.beam.occupied_half_width_m,
+          s.reliability_if_empty,
+          s.reliability_if_occupied};
 }
 
 CompiledSensor::CompiledSensor(const Sensor& s, double cell_m)
