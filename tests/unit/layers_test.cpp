@@ -67,7 +67,7 @@ TEST(Layers, FollowTheSetDefinitions) {
     near(Layer::free_both, open.m[0] + (open.m[1] + open.m[2]) / 2 + open.m[3] / 3);
     near(Layer::specificity, s.m[1] + s.m[2] + s.m[3] / 2);
     near(Layer::internal_conflict,
-         -s.m[1] * std::log2(s.pl(1)) - s.m[2] * std::log2(s.pl(2)) - s.m[3] * std::log2(s.pl(3)));
+         -s.m[1] * std::log2(s.pl(1)) - s.m[2] * std::log2(s.pl(2)));  // Pl of both is 1
     near(Layer::entropy, bits(betp) + bits(1 - betp));
     const double eps = 1e-3;  // DSmP: m(unknown) in proportion to the masses of the two, and ε each
     near(Layer::dsmp, s.m[2] + s.m[3] * (s.m[2] + eps) / (s.m[1] + s.m[2] + 2 * eps));
