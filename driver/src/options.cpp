@@ -119,6 +119,11 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("--max-range", o.max_range_m, "m: lasers clear up to it, sonar readings beyond it are refused");
   command.add_option("--reliability", o.reliability,
                      "Shafer discount in (0, 1] (default: 1 for lasers, 0.9 for sonars)");
+  command.add_option("--contextual", o.contextual,
+                     "IF_EMPTY,IF_OCCUPIED: reliability where a cell is empty (kept of m(occupied)) and where it is "
+                     "occupied (kept of m(empty)), each in (0, 1]")
+      ->delimiter(',')
+      ->expected(2);
   command.add_flag("--clear-no-return", o.clear_no_return, "lasers: a beam without return clears up to --max-range");
   command
       .add_option("--bayes-likelihood", o.bayes_likelihood,

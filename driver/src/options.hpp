@@ -20,6 +20,7 @@ struct MappingOptions {
   std::vector<std::string> params;      ///< of sensor models: MODEL.NAME=VALUE
   bool params_of_other_models = false;  ///< compare gives each row those of all rows
   std::string filter;                   ///< of readings; empty: the scene's, or none
+  std::vector<double> contextual;  ///< empty, or reliability if empty and if occupied
   bool clear_no_return = false;
   std::string bayes_likelihood = "betp";
   std::vector<double> bayes_limits;  ///< empty, or least and most P(occupied)

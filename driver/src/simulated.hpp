@@ -23,6 +23,9 @@ scenes::Vocabulary vocabulary();
 /// "default, hughes1992, …"
 std::string embedded_scene_names();
 
+/// The robot's sensors in the engine's words: sonars, then lasers.
+std::vector<LogSensor> declared_sensors(const scenes::Scene& scene);
+
 struct MappingOptions;
 /// The filter that the scene names, unless the command line names one.
 void use_filter(const scenes::Scene& scene, MappingOptions& options);

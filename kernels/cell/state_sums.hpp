@@ -16,14 +16,18 @@ struct FixedSum {
 };
 inline constexpr float kRestUnit = 1.1920929e-7f, kRestsInOne = 8388608.0f;  // 2^-23, 2^23
 
-/// s + round(l · 2^23) / 2^23 for |l| < 2^21; adding −l afterwards restores the bits.
+/// s + round(l · 2^23) / 2^23; adding −l afterwards restores the bits.
 template <class V>
-EVIGRID_FN FixedSum<V> add(const FixedSum<V>& s, const V& l) {
+EVIGRID_FN FixedSum<V> add(const FixedSum<V>& s, const LogParts<V>& l) {
   const V magic(12582912.0f), zero(0.0f), one(1.0f), unit(kRestsInOne), half(0.5f * kRestsInOne);
-  const V n = (l + magic) - magic;
-  const V rest = s.rest + (((l - n) * unit + magic) - magic);
+  const V n = (l.large + magic) - magic;
+  const V rest = (s.rest + (l.large - n) * unit) + ((l.small * unit + magic) - magic);  // whole numbers below 2^24
   const V carry = select(rest >= half, one, select(rest < zero - half, zero - one, zero));
   return {(s.whole + n) + carry, neg_mul_add(carry, unit, rest)};
+}
+template <class V>
+EVIGRID_FN LogParts<V> times(const V& sign, const LogParts<V>& l) {
+  return {sign * l.large, sign * l.small};
 }
 template <class V>
 EVIGRID_FN V value_of(const FixedSum<V>& s) {
@@ -33,6 +37,13 @@ EVIGRID_FN V value_of(const FixedSum<V>& s) {
 template <class V>
 EVIGRID_FN V difference(const FixedSum<V>& a, const FixedSum<V>& b) {
   return mul_add(a.rest - b.rest, V(kRestUnit), a.whole - b.whole);
+}
+
+/// The same for |x| ≤ 1.
+template <class V>
+EVIGRID_FN FixedSum<V> add_share(const FixedSum<V>& s, const V& x) {
+  const V magic(12582912.0f), n = (x + magic) - magic;
+  return add(s, LogParts<V>{n, x - n});
 }
 
 /// Masses of the weights l1, l2 ≥ 0 with l1 − l2 = d: (1 − w1)·w2 : (1 − w2)·w1 : w1·w2 with w = e^−l, all divided by
@@ -56,8 +67,8 @@ struct LogWeights {
   static EVIGRID_FN Update<V, kPlanes> update(const V (&old)[kPlanes], const S& source, const RuleArgs& args) {
     const S m = drop_paradox(source);
     const V v = unknown_of<V>(m), sign(args.sign);
-    const FixedSum<V> l1 = add(FixedSum<V>{old[0], old[1]}, sign * log_one_plus(m.x / v)),
-                      l2 = add(FixedSum<V>{old[2], old[3]}, sign * log_one_plus(m.y / v));
+    const FixedSum<V> l1 = add(FixedSum<V>{old[0], old[1]}, times(sign, log_one_plus_parts(m.x / v))),
+                      l2 = add(FixedSum<V>{old[2], old[3]}, times(sign, log_one_plus_parts(m.y / v)));
     V k(0.0f);
     if constexpr (kConflict) k = conflict_with(read(old), m);
     return {{l1.whole, l1.rest, l2.whole, l2.rest}, k};
@@ -85,7 +96,7 @@ struct MeanCells {
       x = x * r, y = y * r;
     }
     const FixedSum<V> sx{old[0], old[1]}, sy{old[2], old[3]};
-    const FixedSum<V> nx = add(sx, sign * x), ny = add(sy, sign * y);
+    const FixedSum<V> nx = add_share(sx, sign * x), ny = add_share(sy, sign * y);
     V k(0.0f);
     if constexpr (kConflict) k = (value_of(sx) * y + value_of(sy) * x) / max_of(old[4], V(1.0f));
     return {{nx.whole, nx.rest, ny.whole, ny.rest, old[4] + sign}, k};

@@ -67,6 +67,9 @@ ConeReading compile_cone(const ConeType& t, const SensorPose& pose, double range
   q.lx = left.x, q.ly = left.y, q.rx = right.x, q.ry = right.y;
   q.reliability = static_cast<float>(s.reliability);
   q.doubt = static_cast<float>(1 - s.reliability);
+  q.contextual = {s.reliability_if_empty != 1 || s.reliability_if_occupied != 1,
+                  static_cast<float>(s.reliability_if_empty), static_cast<float>(s.reliability_if_occupied),
+                  static_cast<float>(1 - s.reliability_if_empty), static_cast<float>(1 - s.reliability_if_occupied)};
   compile_model(t, range_m, q);
   return q;
 }

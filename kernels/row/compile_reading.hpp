@@ -15,6 +15,7 @@ struct ConeSpec {
   double cell_m, aperture_rad, min_range_m, max_range_m, reliability;
   double r_max_m, max_occupied, tolerance_m;                              // hughes1992
   double rho_e, rho_o, rho_c, rho_i, epsilon_ratio;                       // li2014
+  double reliability_if_empty = 1, reliability_if_occupied = 1;
   double width_m = 0.15, rho_v_m = 1.2, k_empty = 0.1, k_occupied = 0.5;  // oriolo1997, fuzzy, probability
   bool as_printed = false;                                                // fuzzy
   double li2006_rho_v = 1, li2006_epsilon_m = 0.1;
@@ -41,6 +42,7 @@ struct FanSpec {
   int beams;
   double first_beam_rad, beam_step_rad;
   double empty, occupied, empty_margin_m, half_width_m;
+  double reliability_if_empty = 1, reliability_if_occupied = 1;
 };
 
 /// What all fans of a sensor share: the borders between its beams as directions in the sensor's frame.

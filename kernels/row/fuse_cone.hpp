@@ -2,6 +2,7 @@
 // The loop over the micro-tiles of one tile for one cone: centre → polar → model → discount → rule → store, in
 // registers.
 #pragma once
+#include "kernels/cell/discount.hpp"
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/polar.hpp"
 #include "kernels/cell/poly.hpp"
@@ -138,7 +139,7 @@ void fuse_cone_planes(const TileArgs& a, const ConeReading& q_in, Stats& stats) 
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
       if (!Lanes::any(at.inside)) continue;
-      const auto source = discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt));
+      const auto source = discounted(q, Model::measure(q, at.polar));
       io.fuse(part, source, at.inside, a.rule, stats, max_k);
     }
   }
@@ -177,7 +178,7 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
       const Parts<Lanes::V> s =
-          widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt)));
+          widen(discounted(q, Model::measure(q, at.polar)));
       alignas(64) float masses[Measured::kParts][Lanes::kLanes];
       for (int p = 0; p < Measured::kParts; ++p) {
         Lanes::store_flat(masses[p], s.part[p]);

@@ -55,6 +55,12 @@ struct MoravecConstants {
   float depth_inverse, occupied;      // 1/(R − ε − Rmin); 1/(ε²·N)
 };
 
+/// Reliability by what is true of the cell; doubt = 1 − it, rounded from double.
+struct Contextual {
+  bool used = false;
+  float if_empty = 1, if_occupied = 1, doubt_if_empty = 0, doubt_if_occupied = 0;
+};
+
 struct ConeReading {
   std::int64_t i0 = 0, j0 = 0;           // cell whose centre the apex offset counts from
   float fx = 0, fy = 0;                  // apex = (i0 + fx, j0 + fy) in cell centres
@@ -62,6 +68,7 @@ struct ConeReading {
   Ring ring[3];                          // farthest, nearest, and the model's own edge
   float outer = 0;                       // farthest distance
   float reliability = 1, doubt = 0;      // doubt = 1 − reliability
+  Contextual contextual{};
   union {                                // of the sensor's model
     LiConstants li{};
     HughesConstants hughes;

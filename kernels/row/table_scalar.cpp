@@ -18,7 +18,7 @@ const KernelTable& scalar_table() noexcept {
 namespace {
 template <class Model>
 PointMass point(const ConeReading& q, const scalar::Polar<float>& p) {
-  const auto m = scalar::widen(scalar::discount(Model::measure(q, p), q.reliability, q.doubt));
+  const auto m = scalar::widen(scalar::discounted(q, Model::measure(q, p)));
   return {m.part[0], m.part[1], m.part[2], m.part[3], m.part[4]};
 }
 constexpr PointMass (*kPoint[kConeModels])(const ConeReading&, const scalar::Polar<float>&) = {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace oracle {
 
@@ -150,6 +151,20 @@ Source discount(const Source& s, double reliability) {
   // v + (1 − ρ)(x + y + z), which is 1 − x − y − z after the discount, without cancellation.
   out.v = s.v + (1 - reliability) * (s.x + s.y + s.z);
   return out;
+}
+
+Source contextual(const Source& s, double if_empty, double if_occupied) {
+  // Bits: 1 empty, 2 occupied; 0 is what lies on both at once.
+  double m[4] = {s.z, s.x, s.y, s.v};
+  for (const auto& [hypothesis, reliability] : {std::pair{1, if_empty}, std::pair{2, if_occupied}}) {
+    double joined[4] = {};
+    for (int a = 0; a < 4; ++a) {
+      joined[a] += m[a] * reliability;
+      joined[a | hypothesis] += m[a] * (1 - reliability);
+    }
+    std::copy(joined, joined + 4, m);
+  }
+  return {m[1], m[2], m[0], m[3]};
 }
 
 }  // namespace oracle

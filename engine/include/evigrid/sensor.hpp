@@ -75,6 +75,9 @@ struct Sensor {
   double no_return_m = 1000.0;      ///< readings at or above it mean "no echo": refused, or cleared on request
   bool clear_no_return = false;     ///< "no echo" clears up to max_range_m (fans only)
   double reliability = 1.0;         ///< Shafer discount of every reading, in (0, 1]
+  /// Contextual discount before it, in (0, 1]: reliability where the cell is empty (what m(occupied) keeps), and where
+  /// it is occupied (what m(empty) keeps).
+  double reliability_if_empty = 1.0, reliability_if_occupied = 1.0;
   int beams = 1;                    ///< number of ranges in one reading; > 1 only for a fan
   double first_beam_rad = 0;        ///< bearing of beam 0 in S, counter-clockwise
   double beam_step_rad = 0;         ///< bearing from one beam to the next

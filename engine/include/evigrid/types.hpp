@@ -52,6 +52,8 @@ enum class Rule : std::uint8_t {
   pcr3,
   pcr4,
   pcr6,
+  pcr5plus,
+  pcr6plus,
   conjunctive,
   dsmc,
   cautious,
@@ -61,7 +63,7 @@ enum class Rule : std::uint8_t {
   dempster_log,
   disjunctive
 };
-inline constexpr int kRuleCount = 19, kMapRuleCount = 18;
+inline constexpr int kRuleCount = 21, kMapRuleCount = 20;
 
 /// Inverse sensor models: sonar cones, and beam, a fan of laser beams. probability says P(occupied), fuzzy and
 /// moravec1985 say memberships of two sets, all others masses.
@@ -79,8 +81,8 @@ std::optional<Model> model_from_name(std::string_view) noexcept;
 std::optional<Kernel> kernel_from_name(std::string_view) noexcept;
 std::span<const Rule> all_rules() noexcept;
 std::span<const Rule> map_rules() noexcept;
-/// The first rule that gives the same for two sources on this frame: itself but for pcr3 (pcr2), pcr6 (pcr5),
-/// dubois_prade (yager) and dsmc (conjunctive). dempster_log counts as itself.
+/// The first rule that gives the same for two sources on this frame: itself but for pcr3 (pcr2), pcr6, pcr5plus and
+/// pcr6plus (pcr5), dubois_prade (yager) and dsmc (conjunctive). dempster_log counts as itself.
 Rule same_as(Rule) noexcept;
 /// Whether the rule leaves a mass on empty ∩ occupied: conjunctive, dsmc, fuzzy.
 bool keeps_paradox(Rule) noexcept;

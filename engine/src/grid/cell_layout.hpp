@@ -17,7 +17,8 @@ struct Plane {
 
 struct CellLayout {
   std::vector<Plane> planes;
-  int conflict = -1, con = -1, last_conflict = -1;  // which plane; −1 is none
+  int paradox = -1, conflict = -1, con = -1, last_conflict = -1;  // which plane; −1 is none
+  bool planes_are_masses = true;                                  // the first three are e, o, u as they are read
   void (*read_out)(const float* cells, int planes, int micros, float* out) = nullptr;
 };
 CellLayout cell_layout(const MapParams&, const kernels::KernelTable&);

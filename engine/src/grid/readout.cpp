@@ -12,6 +12,7 @@ namespace evigrid {
 namespace {
 
 constexpr int kSide = kernels::kTileSide, kMicro = kernels::kMicroSide, kCells = kernels::kMicroCells;
+constexpr float kZeros[kCells] = {};
 
 /// The masses of four rows of a tile's cells: the unit of reading. Micro-tiles beside each other lie one after the
 /// other, so it is one call of the kernel.
@@ -38,55 +39,136 @@ void add_history(const TileStore& store, const Tile& tile, int x, int y, CellSta
 
 bool vacuous(const Mass& m) noexcept { return m == Mass{}; }
 
-/// Four rows at a time into the caller's buffer, one look-up of a tile for a run of cells.
-template <class T, class F>
-void fill(const TileStore& store, CellRect rect, std::span<T> out, std::ptrdiff_t stride, F&& of) {
-  if (rect.empty()) return;
-  const auto needed = static_cast<std::size_t>(rect.height - 1) * static_cast<std::size_t>(stride) +
-                      static_cast<std::size_t>(rect.width);
-  if (stride < rect.width || out.size() < needed)
-    throw std::invalid_argument("render: the buffer is smaller than the rectangle");
-  Strip strip;
-  for (std::int64_t y0 = rect.y; y0 < rect.y + rect.height;) {
-    const std::int64_t y1 = std::min((y0 | 3) + 1, rect.y + rect.height);
-    for (std::int64_t x0 = rect.x; x0 < rect.x + rect.width;) {
-      const std::int64_t x1 = std::min((tile_coordinate(x0) + 1) * kSide, rect.x + rect.width);
-      const Tile* tile = store.find(tile_of(x0, y0));
-      if (tile != nullptr) strip.read(store, *tile, static_cast<int>(y0 & 63));
-      for (std::int64_t y = y0; y < y1; ++y) {
-        T* row = out.data() + (y - rect.y) * stride + (x0 - rect.x);
-        for (std::int64_t x = x0; x < x1; ++x) {
-          CellState cell;
-          if (tile != nullptr) {
-            const int tx = static_cast<int>(x & 63), ty = static_cast<int>(y & 63);
-            cell.mass = strip.at(tx, ty);
-            add_history(store, *tile, tx, ty, cell);
-          }
-          *row++ = of(cell);
-        }
+/// A micro-tile as read: its masses, and the history that the map keeps, 16 cells each (zeros where it keeps none).
+struct Micro {
+  const float *e, *o, *u, *c, *k, *con, *last;
+};
+
+/// One layer of a micro-tile.
+void layer_of(Layer layer, const ReadOutParams& params, const Micro& m, float* out) noexcept {
+  const auto each = [&](auto&& of) {
+    for (int i = 0; i < kCells; ++i) out[i] = of(i);
+  };
+  switch (layer) {
+    case Layer::bel:
+      return each([&](int i) { return m.o[i]; });
+    case Layer::empty:
+      return each([&](int i) { return m.e[i]; });
+    case Layer::unknown:
+      return each([&](int i) { return m.u[i]; });
+    case Layer::conflict:
+      return each([&](int i) { return m.k[i]; });
+    case Layer::con:
+      return each([&](int i) { return m.con[i]; });
+    case Layer::last_conflict:
+      return each([&](int i) { return m.last[i]; });
+    case Layer::betp:  // the two that robots ask for ten times a second: vectors where there is no c
+    case Layer::pl:
+      if (std::all_of(m.c, m.c + kCells, [](float c) { return c == 0; })) {
+        const float share = layer == Layer::betp ? 0.5f : 1.0f;
+        return each([&](int i) { return m.o[i] + m.u[i] * share; });
       }
-      x0 = x1;
-    }
-    y0 = y1;
+      [[fallthrough]];
+    default:
+      return each([&](int i) {
+        return static_cast<float>(value_of(layer, {m.e[i], m.o[i], m.u[i], m.c[i]}, params));
+      });
   }
 }
 
+void require_room(CellRect rect, std::size_t size, std::ptrdiff_t stride) {
+  const auto needed = static_cast<std::size_t>(rect.height - 1) * static_cast<std::size_t>(stride) +
+                      static_cast<std::size_t>(rect.width);
+  if (stride < rect.width || size < needed)
+    throw std::invalid_argument("render: the buffer is smaller than the rectangle");
+}
+
+/// The part of `rect` in one tile, micro-tile by micro-tile: of(micro, out) makes 16 values, straight from the planes
+/// where these are masses so that the compiler sees vectors; those within the rectangle go to their rows. `part` lies in
+/// the tile.
+template <class T, class F>
+void fill_tile(const TileStore& store, const Tile& tile, CellRect part, T* to, std::ptrdiff_t stride, F&& of) {
+  const int x0 = static_cast<int>(part.x & 63), x1 = x0 + static_cast<int>(part.width);
+  const int y0 = static_cast<int>(part.y & 63), y1 = y0 + static_cast<int>(part.height);
+  const CellLayout& l = store.layout();
+  Strip strip;
+  T values[kCells];
+  for (int my = y0 & ~3; my < y1; my += kMicro) {
+    if (!l.planes_are_masses) strip.read(store, tile, my);
+    for (int mx = x0 & ~3; mx < x1; mx += kMicro) {
+      const float* p = tile.cells.get() + store.cell_offset(mx, my);
+      const auto kept = [&](int plane) { return plane < 0 ? kZeros : p + plane * kCells; };
+      const float* masses = l.planes_are_masses ? p : strip.masses + (mx / kMicro) * 4 * kCells;
+      const float* c = l.planes_are_masses ? kept(l.paradox) : masses + 3 * kCells;
+      of(Micro{masses, masses + kCells, masses + 2 * kCells, c, kept(l.conflict), kept(l.con), kept(l.last_conflict)},
+         values);
+      const int left = std::max(mx, x0), right = std::min(mx + kMicro, x1);
+      for (int y = std::max(my, y0); y < std::min(my + kMicro, y1); ++y)
+        std::copy_n(values + (y - my) * kMicro + (left - mx), right - left, to + (y - y0) * stride + (left - x0));
+    }
+  }
+}
+
+/// Tile by tile into the caller's buffer; `never_seen` where there is none.
+template <class T, class F>
+void fill(const TileStore& store, CellRect rect, std::span<T> out, std::ptrdiff_t stride, T never_seen, F&& of) {
+  if (rect.empty()) return;
+  require_room(rect, out.size(), stride);
+  const std::int64_t x_end = rect.x + rect.width, y_end = rect.y + rect.height;
+  for (std::int64_t y = rect.y; y < y_end;) {
+    const std::int64_t below = std::min((tile_coordinate(y) + 1) * kSide, y_end);
+    for (std::int64_t x = rect.x; x < x_end;) {
+      const std::int64_t right = std::min((tile_coordinate(x) + 1) * kSide, x_end);
+      T* to = out.data() + (y - rect.y) * stride + (x - rect.x);
+      if (const Tile* tile = store.find(tile_of(x, y))) {
+        fill_tile(store, *tile, {x, y, right - x, below - y}, to, stride, of);
+      } else {
+        for (std::int64_t row = 0; row < below - y; ++row) std::fill_n(to + row * stride, right - x, never_seen);
+      }
+      x = right;
+    }
+    y = below;
+  }
+}
+
+/// A Costmap in the form that a cell needs: everything in float.
 struct Costs {
-  int none, lethal, most;  // no information; occupied; the largest of what lies between (the least is 1)
+  float free_below, lethal_above, max_unknown, slope;
+  float none, lethal;  // no information; occupied
+
+  /// most: the largest cost of what is neither free nor occupied; the least is 1.
+  Costs(const Costmap& c, int none_cost, int lethal_cost, int most)
+      : free_below(static_cast<float>(c.free_below)),
+        lethal_above(static_cast<float>(c.lethal_above)),
+        max_unknown(static_cast<float>(c.max_unknown)),
+        slope(c.free_below < c.lethal_above ? static_cast<float>((most - 1) / (c.lethal_above - c.free_below)) : 0),
+        none(static_cast<float>(none_cost)),
+        lethal(static_cast<float>(lethal_cost)) {}
+
+  /// Selections: with -fno-trapping-math (engine/CMakeLists.txt) the loop over a micro-tile becomes vectors.
+  [[nodiscard]] int of(float e, float o, float u, float c) const noexcept {
+    const float betp = (o + 0.5f * u) / (c > 0 ? (e + o) + u : 1.0f);
+    const float between = (betp - free_below) * slope + 1.5f;  // 1 + the nearest whole number, once it is cut
+    const float cost = betp > lethal_above ? lethal : betp < free_below ? 0.0f : between;
+    return static_cast<int>(u > max_unknown ? none : cost);
+  }
 };
 
-int cost(const Costmap& c, const Mass& m, Costs costs) noexcept {
-  const double betp = value_of(Layer::betp, m);
-  if (m.u > c.max_unknown) return costs.none;
-  if (betp > c.lethal_above) return costs.lethal;
-  if (betp < c.free_below) return 0;
-  const double part = (betp - c.free_below) / (c.lethal_above - c.free_below);
-  return static_cast<int>(1 + std::lround(part * (costs.most - 1)));
-}
+Costs occupancy(const Costmap& c) { return {c, -1, 100, 99}; }
+Costs costs(const Costmap& c) { return {c, 255, 254, 252}; }
 
 void require_ordered(const Costmap& c) {
   if (!(c.free_below >= 0 && c.free_below < c.lethal_above && c.lethal_above <= 1))
     throw std::invalid_argument("costmap: free_below and lethal_above must be 0 <= free_below < lethal_above <= 1");
+}
+
+template <class T>
+void render_costs(const TileStore& store, const Costs& c, CellRect rect, std::span<T> out, std::ptrdiff_t stride) {
+  fill(store, rect, out, stride, static_cast<T>(c.of(0, 0, 1, 0)), [&c](const Micro& m, T* to) {
+    int cost[kernels::kMicroCells];  // apart from `to`, which as bytes might be anything: then the loop becomes vectors
+    for (int i = 0; i < kernels::kMicroCells; ++i) cost[i] = c.of(m.e[i], m.o[i], m.u[i], m.c[i]);
+    std::copy_n(cost, kernels::kMicroCells, to);
+  });
 }
 
 /// A 64-bit mix per word (constants of splitmix64): enough for "are these maps the same bits?".
@@ -135,35 +217,29 @@ CellRect occupied_bounds(const TileStore& store) {
 
 void render_layer(const TileStore& store, Layer layer, const ReadOutParams& params, CellRect rect,
                   std::span<float> out, std::ptrdiff_t stride) {
-  const auto draw = [&](auto&& of) { fill(store, rect, out, stride, of); };
-  switch (layer) {
-    case Layer::conflict:
-      return draw([](const CellState& c) { return c.conflict; });
-    case Layer::con:
-      return draw([](const CellState& c) { return c.con; });
-    case Layer::last_conflict:
-      return draw([](const CellState& c) { return c.last_conflict; });
-    default:
-      return draw([&](const CellState& c) { return static_cast<float>(value_of(layer, c.mass, params)); });
-  }
+  constexpr float kUnknown[kCells] = {1};
+  float never_seen[kCells];
+  layer_of(layer, params, {kZeros, kZeros, kUnknown, kZeros, kZeros, kZeros, kZeros}, never_seen);
+  fill(store, rect, out, stride, never_seen[0],
+       [&](const Micro& m, float* to) { layer_of(layer, params, m, to); });
 }
 
 std::int8_t occupancy_of(const Costmap& c, const Mass& m) noexcept {
-  return static_cast<std::int8_t>(cost(c, m, {-1, 100, 99}));
+  return static_cast<std::int8_t>(occupancy(c).of(m.e, m.o, m.u, m.c));
 }
 std::uint8_t cost_of(const Costmap& c, const Mass& m) noexcept {
-  return static_cast<std::uint8_t>(cost(c, m, {255, 254, 252}));
+  return static_cast<std::uint8_t>(costs(c).of(m.e, m.o, m.u, m.c));
 }
 
 void render_costmap(const TileStore& store, const Costmap& c, CellRect rect, std::span<std::int8_t> out,
                     std::ptrdiff_t stride) {
   require_ordered(c);
-  fill(store, rect, out, stride, [&c](const CellState& cell) { return occupancy_of(c, cell.mass); });
+  render_costs(store, occupancy(c), rect, out, stride);
 }
 void render_costmap(const TileStore& store, const Costmap& c, CellRect rect, std::span<std::uint8_t> out,
                     std::ptrdiff_t stride) {
   require_ordered(c);
-  fill(store, rect, out, stride, [&c](const CellState& cell) { return cost_of(c, cell.mass); });
+  render_costs(store, costs(c), rect, out, stride);
 }
 
 std::uint64_t hash_cells(const TileStore& store) {

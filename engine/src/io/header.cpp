@@ -39,6 +39,8 @@ void each_field(S& s, F&& f) {
   f("no_return_m", s.no_return_m);
   f("clear_no_return", s.clear_no_return);
   f("reliability", s.reliability);
+  f("reliability_if_empty", s.reliability_if_empty);
+  f("reliability_if_occupied", s.reliability_if_occupied);
   f("beams", s.beams);
   f("first_beam_rad", s.first_beam_rad);
   f("beam_step_rad", s.beam_step_rad);

@@ -24,7 +24,9 @@ kernels::ConeSpec cone_spec(const Sensor& s, double cell_m) {
                          s.li.rho_o,
                          s.li.rho_c,
                          s.li.rho_i,
-                         s.li.epsilon_ratio};
+                         s.li.epsilon_ratio,
+                         s.reliability_if_empty,
+                         s.reliability_if_occupied};
   spec.li2006_rho_v = s.li2006.rho_v;
   spec.li2006_epsilon_m = s.li2006.epsilon_m;
   spec.discount_by_lambda = s.li2006.discount_by_lambda;
@@ -55,7 +57,9 @@ kernels::FanSpec fan_spec(const Sensor& s, double cell_m) {
           s.beam.empty,
           s.beam.occupied,
           s.beam.empty_margin_m,
-          s.beam.occupied_half_width_m};
+          s.beam.occupied_half_width_m,
+          s.reliability_if_empty,
+          s.reliability_if_occupied};
 }
 
 CompiledSensor::CompiledSensor(const Sensor& s, double cell_m)
