@@ -47,17 +47,12 @@ const kernels::KernelTable& table_of(Kernel kernel) {
   return *table;
 }
 
-bool leaves_paradox(Rule rule) {
-  const kernels::RuleKernel k = kernel_of(rule);
-  return k == kernels::kConjunctive || k == kernels::kFuzzy;
-}
-
 std::uint64_t combine_range(const kernels::KernelTable& table, Rule rule, Planes<const float> a, Planes<const float> b,
                             Planes<float> c, float* conflict, std::size_t begin, std::size_t end) {
   if (a.c != nullptr || b.c != nullptr) return through_double(rule, a, b, c, conflict, begin, end);
   const kernels::DensePlanes planes{a.e, a.o, a.u, b.e, b.o, b.u, c.e, c.o, c.u, conflict, c.c};
   const std::uint64_t totals = table.dense[kernel_of(rule)](planes, begin, end);
-  if (c.c != nullptr && !leaves_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0f);
+  if (c.c != nullptr && !keeps_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0f);
   return totals;
 }
 
@@ -65,7 +60,7 @@ std::uint64_t combine_range(Rule rule, Planes<const double> a, Planes<const doub
                             double* conflict, std::size_t begin, std::size_t end) {
   const kernels::DoublePlanes planes{a.e, a.o, a.u, a.c, b.e, b.o, b.u, b.c, c.e, c.o, c.u, c.c, conflict};
   const std::uint64_t totals = kernels::dense_double(kernel_of(rule), planes, begin, end);
-  if (c.c != nullptr && !leaves_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0);
+  if (c.c != nullptr && !keeps_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0);
   return totals;
 }
 
@@ -86,5 +81,10 @@ std::uint64_t combine(Rule rule, Planes<const double> a, Planes<const double> b,
 
 std::string_view resolve_kernel_name(Kernel kernel) { return table_of(kernel).name; }
 bool kernel_available(Kernel kernel) noexcept { return kernels::find_table(name(kernel)) != nullptr; }
+
+double fuzzy_map(double empty, double occupied) noexcept {
+  const double not_occupied = 1 - occupied, both = empty * occupied, neither = (1 - empty) * not_occupied;
+  return 1 - empty * empty * not_occupied * (1 - both) * (1 - neither);
+}
 
 }  // namespace evigrid

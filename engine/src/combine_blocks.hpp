@@ -18,7 +18,6 @@ inline constexpr std::size_t kCombineBlock = std::size_t{1} << 16;  // cells: 1.
 const kernels::KernelTable& table_of(Kernel);
 
 /// Rules whose result holds mass on empty ∩ occupied.
-bool leaves_paradox(Rule);
 
 /// Cells [begin, end) of the call in combine.hpp.
 std::uint64_t combine_range(const kernels::KernelTable&, Rule, Planes<const float> a, Planes<const float> b,

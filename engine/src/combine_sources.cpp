@@ -43,7 +43,7 @@ struct Resident {
   void in_order(std::span<const Planes<const T>> sources, std::size_t at, Planes<T> c) {
     T paradox[kResident];
     Planes<T> state{c.e, c.o, c.u, nullptr};
-    if (leaves_paradox(rule)) state.c = c.c != nullptr ? c.c : paradox;
+    if (keeps_paradox(rule)) state.c = c.c != nullptr ? c.c : paradox;
     Planes<const T> so_far = from(sources[0], at);
     for (std::size_t s = 1; s < sources.size(); ++s) {
       step(rule, so_far, from(sources[s], at), state, s == 1);
@@ -93,7 +93,7 @@ std::uint64_t one_pass(Rule rule, std::span<const Planes<const T>> sources, Plan
         block.in_order(sources, at, from(c, at));
       }
       totals += block.totals;
-      if (c.c != nullptr && !leaves_paradox(rule)) std::fill_n(c.c + at, block.n, T{0});
+      if (c.c != nullptr && !keeps_paradox(rule)) std::fill_n(c.c + at, block.n, T{0});
     }
     return totals;
   });

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "kernels/row/portable_math.hpp"
 #include "rule_kernels.hpp"
 #include "scan/bin.hpp"
 #include "scan/footprint.hpp"
@@ -19,7 +20,22 @@ struct Batch {
   const std::vector<Footprint>& footprints;
   std::vector<TileWork>& work;
   std::vector<kernels::Stats>& stats;
+  kernels::RuleArgs rule;
 };
+
+kernels::RuleArgs args_of(const MapParams& p, bool undo) {
+  const auto log_odds = [](double q) {
+    return static_cast<float>(kernels::portable_log(q) - kernels::portable_log(1 - q));
+  };
+  kernels::RuleArgs a;
+  a.sign = undo ? -1.0f : 1.0f;
+  a.unknown_share = p.bayes.likelihood == Likelihood::plp ? 1.0f : 0.5f;
+  a.least_log_odds = log_odds(p.bayes.least_p);
+  a.most_log_odds = log_odds(p.bayes.most_p);
+  a.con = p.keep_con;
+  a.last = p.keep_last_conflict;
+  return a;
+}
 
 /// One tile: its readings, in order.
 void fuse_tile(const Batch& b, std::size_t index) {
@@ -29,7 +45,9 @@ void fuse_tile(const Batch& b, std::size_t index) {
   kernels::FanMicros fan_micros;
   kernels::TileArgs args;
   args.cells = w.tile->cells.get();
-  args.conflict_plane = b.p.params.keep_conflict;
+  args.planes = b.p.store.planes();
+  args.conflict_plane = b.p.params.keep_conflict && !b.p.undo;
+  args.rule = b.rule;
   args.fan = &fan_micros;
   BlockMask reached = 0;
   for (const std::uint32_t i : w.footprints) {
@@ -84,15 +102,17 @@ Report integrate(const Pipeline& p, std::span<const Scan> scans) {
   Report report;
   std::vector<Footprint> footprints;
   for (const Scan& scan : scans) {  // gate: compile what can be used, count the rest
-    if (scan.stamp_ns < p.last_stamp_ns) ++report.stamps_backwards;
-    p.last_stamp_ns = scan.stamp_ns;
-    gate_scan(scan, p.sensors, p.params.cell_m, footprints, report);
+    if (!p.undo) {
+      if (scan.stamp_ns < p.last_stamp_ns) ++report.stamps_backwards;
+      p.last_stamp_ns = scan.stamp_ns;
+    }
+    gate_scan(scan, p.sensors, p.params, footprints, report);
   }
   compile_all(footprints, p);
   std::vector<TileWork> work = bin(footprints, p.table, p.store);
   std::vector<kernels::Stats> stats(work.size());
   for (const TileWork& w : work) p.changes.enroll(*w.tile);
-  Batch batch{p, footprints, work, stats};
+  Batch batch{p, footprints, work, stats, args_of(p.params, p.undo)};
   p.executor.run(
       static_cast<std::int64_t>(work.size()),
       [](void* context, std::int64_t index, int worker) {

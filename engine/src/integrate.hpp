@@ -20,6 +20,7 @@ struct Pipeline {
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
   std::int64_t& last_stamp_ns;
+  bool undo = false;  // takes the scans back
 };
 
 Report integrate(const Pipeline&, std::span<const Scan>);

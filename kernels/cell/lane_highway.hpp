@@ -115,6 +115,25 @@ HWY_INLINE Pack scale_by_magic(const Pack& p, const Pack& magic) {
   return r;
 }
 
+/// x = m · 2^n for a normal x > 0, m in [√½, √2); down = 2^−n.
+template <class V>
+struct Split {
+  V m, n, down;
+};
+HWY_INLINE Split<Pack> split_exponent(const Pack& x) {
+  const hn::RebindToSigned<Tag> di;
+  Split<Pack> r;
+  for (int i = 0; i < kUnroll; ++i) {
+    const auto bits = hn::BitCast(di, x.v[i]);
+    const auto n = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
+    const auto up = hn::ShiftLeft<23>(n);
+    r.m.v[i] = hn::BitCast(Tag(), hn::Sub(bits, up));
+    r.n.v[i] = hn::ConvertTo(Tag(), n);
+    r.down.v[i] = hn::BitCast(Tag(), hn::Sub(hn::Set(di, 0x3f800000), up));
+  }
+  return r;
+}
+
 /// How loops step over micro-tiles of 16 cells: kMicros whole ones at a time.
 struct Lanes {
   using V = Pack;

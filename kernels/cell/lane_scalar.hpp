@@ -39,6 +39,18 @@ inline float scale_by_magic(float p, float magic) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(p) + (std::bit_cast<std::uint32_t>(magic) << 23));
 }
 
+/// x = m · 2^n for a normal x > 0, m in [√½, √2); down = 2^−n.
+template <class V>
+struct Split {
+  V m, n, down;
+};
+inline Split<float> split_exponent(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  const std::int32_t n = static_cast<std::int32_t>(bits - 0x3f3504f3u) >> 23;
+  const std::uint32_t up = static_cast<std::uint32_t>(n) << 23;
+  return {std::bit_cast<float>(bits - up), static_cast<float>(n), std::bit_cast<float>(0x3f800000u - up)};
+}
+
 /// How loops step over a micro-tile of 16 cells: one cell at a time.
 struct Lanes {
   using V = float;

@@ -15,21 +15,64 @@ struct Cell {
 
 template <class V>
 struct Source {
+  static constexpr bool kYields = false;
   V x, y, v, z, s;  // m(empty), m(occupied), m(unknown), m(empty ∩ occupied), their sum
 };
 
 /// A source without paradoxical mass, already normalised: its sum is 1 and costs nothing.
 template <class V>
 struct PlainSource {
+  static constexpr bool kYields = false;
   V x, y, v;
 };
+
+/// A source whose masses may lie far below their sum (li2006 at its edges): share = z/(x + y), so that the paradoxical
+/// mass can be given back without a small scale.
+template <class V>
+struct FaintSource {
+  static constexpr bool kYields = false;
+  V x, y, v, z, s, share;
+};
+
+/// Memberships whose occupied part gives way to what the cell knows of empty: y(1 − e) (moravec1985).
+template <class V>
+struct YieldingSource {
+  static constexpr bool kYields = true;
+  V x, y, v;
+};
+
+/// A probability as the Bayesian mass (x, y, 0), with gap = y − x right relatively: near ½ that difference is all it
+/// says.
+template <class V>
+struct ProbabilitySource {
+  static constexpr bool kYields = false;
+  V x, y, v, gap;
+};
+
 template <class V>
 EVIGRID_FN V scale(const Source<V>& m) {
   return m.s;
 }
 template <class V>
+EVIGRID_FN V scale(const FaintSource<V>& m) {
+  return m.s;
+}
+template <class V>
 EVIGRID_FN V scale(const PlainSource<V>&) {
   return V(1.0f);
+}
+template <class V>
+EVIGRID_FN V scale(const ProbabilitySource<V>&) {
+  return V(1.0f);
+}
+/// y − x.
+template <class V, class S>
+EVIGRID_FN V gap_of(const S& m) {
+  if constexpr (requires { m.gap; }) {
+    return m.gap;
+  } else {
+    return m.y - m.x;
+  }
 }
 
 /// What one combination gives: the new cell and the conflict k of the two normalised operands. Rules that can meet
@@ -66,6 +109,12 @@ EVIGRID_FN V nonzero(const V& d) {
   return select(d > V(kTiny), d, V(1.0f));
 }
 
+/// A source's mass below 1e-20 is taken as 0, so that no product with a cell becomes denormal.
+template <class V>
+EVIGRID_FN V settle_source(const V& m) {
+  return select(m >= V(1e-20f), m, V(0.0f));
+}
+
 template <class State, class V>
 EVIGRID_FN Cell<V> settle(const Cell<V>& c) {
   if constexpr (State::kFloors) {
@@ -79,6 +128,10 @@ EVIGRID_FN Cell<V> settle(const Cell<V>& c) {
 /// k of the two normalised operands, from k·(source's sum): a plain source is normalised already.
 template <class V>
 EVIGRID_FN V conflict_of(const Source<V>&, const V& k, const V& inverse_sum) {
+  return k * inverse_sum;
+}
+template <class V>
+EVIGRID_FN V conflict_of(const FaintSource<V>&, const V& k, const V& inverse_sum) {
   return k * inverse_sum;
 }
 template <class V>
@@ -109,6 +162,22 @@ EVIGRID_FN PlainSource<V> discount(const PlainSource<V>& m, const V& reliability
   return {m.x * reliability, m.y * reliability, mul_add(m.v, reliability, doubt)};
 }
 
+template <class V>
+EVIGRID_FN FaintSource<V> discount(const FaintSource<V>& m, const V& reliability, const V& doubt) {
+  return {
+      m.x * reliability, m.y * reliability, mul_add(m.v, reliability, m.s * doubt), m.z * reliability, m.s, m.share};
+}
+
+template <class V>
+EVIGRID_FN ProbabilitySource<V> discount(const ProbabilitySource<V>& m, const V& reliability, const V& doubt) {
+  return {m.x * reliability, m.y * reliability, mul_add(m.v, reliability, doubt), m.gap * reliability};
+}
+
+template <class V>
+EVIGRID_FN YieldingSource<V> discount(const YieldingSource<V>& m, const V& reliability, const V& doubt) {
+  return {m.x * reliability, m.y * reliability, mul_add(m.v, reliability, doubt)};
+}
+
 /// The PCR family gives a source's paradoxical mass back to x and y in proportion, halves if both are 0.
 /// Everything is multiplied through by x + y, so that this costs no division.
 template <class V>
@@ -124,6 +193,11 @@ EVIGRID_FN PlainSource<V> give_back(const PlainSource<V>& m) {
   return {m.x, m.y, m.v};
 }
 
+template <class V>
+EVIGRID_FN FaintSource<V> give_back(const FaintSource<V>& m) {
+  return {mul_add(m.x, m.share, m.x), mul_add(m.y, m.share, m.y), m.v, V(0.0f), m.s, V(0.0f)};
+}
+
 /// Rules without a place for the paradoxical mass drop it.
 template <class V>
 EVIGRID_FN Source<V> drop_paradox(const Source<V>& m) {
@@ -132,6 +206,56 @@ EVIGRID_FN Source<V> drop_paradox(const Source<V>& m) {
 template <class V>
 EVIGRID_FN PlainSource<V> drop_paradox(const PlainSource<V>& m) {
   return {m.x, m.y, m.v};
+}
+
+template <class V>
+EVIGRID_FN FaintSource<V> drop_paradox(const FaintSource<V>& m) {
+  return {m.x, m.y, m.v, V(0.0f), (m.x + m.y) + m.v, V(0.0f)};
+}
+
+template <class V>
+EVIGRID_FN ProbabilitySource<V> drop_paradox(const ProbabilitySource<V>& m) {
+  return m;
+}
+
+/// A source as memory holds it (kernel_table.hpp, Measured), and back: it keeps its kind, so that the fused and the
+/// unfused path run the same functions.
+template <class V>
+struct Parts {
+  V part[6];
+};
+template <class V>
+EVIGRID_FN Parts<V> widen(const Source<V>& m) {
+  return {{m.x, m.y, m.v, m.z, m.s, V(0.0f)}};
+}
+template <class V>
+EVIGRID_FN Parts<V> widen(const FaintSource<V>& m) {
+  return {{m.x, m.y, m.v, m.z, m.s, m.share}};
+}
+template <class V>
+EVIGRID_FN Parts<V> widen(const PlainSource<V>& m) {
+  return {{m.x, m.y, m.v, V(0.0f), V(1.0f), V(0.0f)}};
+}
+template <class V>
+EVIGRID_FN Parts<V> widen(const YieldingSource<V>& m) {
+  return {{m.x, m.y, m.v, V(0.0f), V(1.0f), V(0.0f)}};
+}
+template <class V>
+EVIGRID_FN Parts<V> widen(const ProbabilitySource<V>& m) {
+  return {{m.x, m.y, m.v, V(0.0f), V(1.0f), m.gap}};
+}
+template <class Kind, class V>
+EVIGRID_FN Kind narrow(const Parts<V>& p) {
+  const auto& m = p.part;
+  if constexpr (requires(Kind k) { k.share; }) {
+    return {m[0], m[1], m[2], m[3], m[4], m[5]};
+  } else if constexpr (requires(Kind k) { k.z; }) {
+    return {m[0], m[1], m[2], m[3], m[4]};
+  } else if constexpr (requires(Kind k) { k.gap; }) {
+    return {m[0], m[1], m[2], m[5]};
+  } else {
+    return {m[0], m[1], m[2]};
+  }
 }
 
 EVIGRID_CELL_END

@@ -42,7 +42,8 @@ template <class V>
 struct Polar {
   V nl, nr;  // products with the normals of the left and right edge, in cells; both ≥ 0 inside
   V d2;      // squared distance, cells²
-  V edge;    // d² − T² of the model's own ring (li2014: R; hughes1992: R − tol), sign exact
+  V edge;    // d² − T² of the model's own ring (compile_cone.cpp says which), sign exact
+  V outer;   // d² − L² of the farthest ring, sign exact; at most 0 inside
 };
 
 template <class V, class M>
@@ -60,7 +61,7 @@ EVIGRID_FN auto locate(const ConeReading& q, const V& dx, const RowTerms<V>& r) 
   const V inner = mul_add(dx, dx, r.ring_hi[kInner]) + r.ring_lo[kInner];
   const V edge = mul_add(dx, dx, r.ring_hi[kEdge]) + r.ring_lo[kEdge];
   const auto inside = both(min_of(nl, nr) >= zero, both(outer <= zero, inner >= zero));
-  return Located<V, std::remove_const_t<decltype(inside)>>{{nl, nr, mul_add(dx, dx, r.yy), edge}, inside};
+  return Located<V, std::remove_const_t<decltype(inside)>>{{nl, nr, mul_add(dx, dx, r.yy), edge, outer}, inside};
 }
 
 EVIGRID_CELL_END

@@ -40,6 +40,7 @@ void fill_batch(KernelTable& t) {
   fill_batch_rule<Cautious>(t, kCautious);
   fill_batch_rule<Bayes>(t, kBayes);
   fill_batch_rule<Fuzzy>(t, kFuzzy);
+  fill_batch_same(t, kDempsterLog, kDempster);  // the same for two sources; what differs is the state of a map
 }
 
 EVIGRID_CELL_END

@@ -116,8 +116,8 @@ inline void compile_fan(const FanType& type, const SensorPose& pose, Fan& out) {
   q.far = static_cast<float>(far);
   q.empty_margin = static_cast<float>(margin);
   q.half_width = static_cast<float>(half_width);
-  q.empty = static_cast<float>(s.empty * s.reliability);
-  q.occupied = static_cast<float>(s.occupied * s.reliability);
+  q.empty = static_cast<float>(s.empty * s.reliability * s.reliability_if_occupied);
+  q.occupied = static_cast<float>(s.occupied * s.reliability * s.reliability_if_empty);
   q.fall = static_cast<float>(c / (2 * s.max_range_m));
   q.range = cells;
   q.border_x = out.border_x.data();

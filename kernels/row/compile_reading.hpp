@@ -11,24 +11,38 @@ namespace evigrid::kernels {
 
 /// Plain numbers of one sensor; metres and radians.
 struct ConeSpec {
-  int model = 1;  // 0 hughes1992, 1 li2014
+  int model = kLi2014;  // a ConeModel
   double cell_m, aperture_rad, min_range_m, max_range_m, reliability;
-  double r_max_m, max_occupied, tolerance_m;         // hughes1992
-  double rho_e, rho_o, rho_c, rho_i, epsilon_ratio;  // li2014
+  double r_max_m, max_occupied, tolerance_m;                              // hughes1992
+  double rho_e, rho_o, rho_c, rho_i, epsilon_ratio;                       // li2014
+  double reliability_if_empty = 1, reliability_if_occupied = 1;
+  double width_m = 0.15, rho_v_m = 1.2, k_empty = 0.1, k_occupied = 0.5;  // oriolo1997, fuzzy, probability
+  bool as_printed = false;                                                // fuzzy
+  double li2006_rho_v = 1, li2006_epsilon_m = 0.1;
+  bool discount_by_lambda = true;  // li2006
+  double moravec_epsilon_m = 0.1;
 };
 
 struct ConeType {
   ConeSpec spec{};
   double lattice = 65536;  // steps per cell
-  float lambda[4], shell[4], margin[4];
+  float lambda[4], shell[4], margin[4], off_axis[4];
   explicit ConeType(const ConeSpec&);
 };
+
+/// The farthest distance at which a reading says something, and the model's own edge.
+struct ConeLimits {
+  double outer, edge;
+};
+/// In metres and unrounded; compile_cone puts the same on the lattice.
+ConeLimits cone_limits_m(const ConeSpec&, double range_m) noexcept;
 
 struct FanSpec {
   double cell_m, min_range_m, max_range_m, reliability;
   int beams;
   double first_beam_rad, beam_step_rad;
   double empty, occupied, empty_margin_m, half_width_m;
+  double reliability_if_empty = 1, reliability_if_occupied = 1;
 };
 
 /// What all fans of a sensor share: the borders between its beams as directions in the sensor's frame.

@@ -2,8 +2,11 @@
 // The loop over the micro-tiles of one tile for one cone: centre → polar → model → discount → rule → store, in
 // registers.
 #pragma once
+#include "kernels/cell/discount.hpp"
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/polar.hpp"
+#include "kernels/cell/poly.hpp"
+#include "kernels/cell/state.hpp"
 
 #include "kernels/row/kernel_table.hpp"
 
@@ -57,47 +60,69 @@ struct ConeStep {
   }
 };
 
-/// Cells of the planes of one step.
-template <bool kConflict>
+/// The planes behind the sum of conflict, of maps that keep them. Out of line: the others must not pay for it.
+template <class = void>
+__attribute__((noinline)) void keep_history(float* const* conflict, int part, const Lanes::M& inside, const Lanes::V& k,
+                                            const RuleArgs& args) {
+  float* at[Lanes::kMicros];
+  const auto next_plane = [&](int n) EVIGRID_LAMBDA {
+    for (int m = 0; m < Lanes::kMicros; ++m) at[m] = conflict[m] + n * kMicroCells;
+  };
+  if (args.con) {  // −ln(1 − k), of total conflict 27.6
+    next_plane(1);
+    const Lanes::V one(1.0f), step = log_one_plus(k / max_of(one - k, Lanes::V(1e-12f)));
+    Lanes::store(at, part, inside, Lanes::load(at, part) + step);
+  }
+  if (args.last) {
+    next_plane(args.con ? 2 : 1);
+    Lanes::store(at, part, inside, k);
+  }
+}
+
+/// Cells of the planes of one step: those of the state, then, where it is kept, the sum of conflict.
+template <class State, bool kConflict>
 struct CellIo {
-  float* e[Lanes::kMicros];
-  float* o[Lanes::kMicros];
-  float* u[Lanes::kMicros];
-  float* k[Lanes::kMicros];
+  static constexpr int kPlanes = State::kPlanes;
+  float* plane[kPlanes + 1][Lanes::kMicros];
   EVIGRID_FN explicit CellIo(float* const* cell) {
-    for (int m = 0; m < Lanes::kMicros; ++m) {
-      e[m] = cell[m];
-      o[m] = cell[m] + kMicroCells;
-      u[m] = cell[m] + 2 * kMicroCells;
-      k[m] = kConflict ? cell[m] + 3 * kMicroCells : nullptr;
+    for (int p = 0; p < kPlanes + 1; ++p) {
+      for (int m = 0; m < Lanes::kMicros; ++m) plane[p][m] = cell[m] + p * kMicroCells;
     }
   }
-  template <class Rule, class S>
-  EVIGRID_FN void fuse(int part, const S& source, const Lanes::M& inside, Stats& stats, Lanes::V& max_k) const {
-    const Cell<Lanes::V> old{Lanes::load(e, part), Lanes::load(o, part), Lanes::load(u, part)};
-    const auto next = Rule::template combine<MapState>(old, source);
-    Lanes::store(e, part, inside, next.cell.a);
-    Lanes::store(o, part, inside, next.cell.b);
-    Lanes::store(u, part, inside, next.cell.u);
+  template <class S>
+  EVIGRID_FN void fuse(int part, const S& source, const Lanes::M& inside, const RuleArgs& args, Stats& stats,
+                       Lanes::V& max_k) const {
+    Lanes::V old[kPlanes];
+    for (int p = 0; p < kPlanes; ++p) old[p] = Lanes::load(plane[p], part);
+    const auto next = State::template update<kConflict>(old, source, args);
+    for (int p = 0; p < kPlanes; ++p) Lanes::store(plane[p], part, inside, next.plane[p]);
     const Lanes::V kk = select(inside, next.k, Lanes::V(0.0f));
-    if constexpr (kConflict) Lanes::store(k, part, inside, Lanes::load(k, part) + kk);
+    if constexpr (kConflict) {
+      float* const* k = plane[kPlanes];
+      Lanes::store(k, part, inside, Lanes::load(k, part) + kk);
+      if (args.con || args.last) [[unlikely]] {
+        const Lanes::M where = inside;  // copies: the originals stay in registers
+        const Lanes::V what = kk;
+        keep_history(k, part, where, what, args);
+      }
+    }
     max_k = max_of(max_k, kk);
     stats.cells += static_cast<std::uint64_t>(Lanes::count(inside));
-    if constexpr (Rule::kTotalPossible) {
+    if constexpr (State::kTotalPossible) {
       const auto total = both(inside, next.total);
       if (Lanes::any(total)) stats.total_conflicts += static_cast<std::uint64_t>(Lanes::count(total));
     }
   }
 };
 
-template <class Rule, class Model, bool kConflict>
+template <class State, class Model, bool kConflict>
 void fuse_cone_planes(const TileArgs& a, const ConeReading& q_in, Stats& stats) {
   const ConeReading q = q_in;  // a local copy: no store into the map can alias it
   ConeFrame frame;
   frame.build(a, q);
-  constexpr int kPlanes = kConflict ? 4 : 3;
+  const std::size_t stride = static_cast<std::size_t>(a.planes) * kMicroCells;
   constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
-  alignas(64) float spare[4 * kMicroCells] = {};
+  alignas(64) float spare[kMostPlanes * kMicroCells] = {};
   alignas(64) float nowhere[kMicroCells];  // offsets far outside every cone
   for (float& f : nowhere) f = 1e6f;
   Lanes::V max_k(0.0f);
@@ -106,49 +131,32 @@ void fuse_cone_planes(const TileArgs& a, const ConeReading& q_in, Stats& stats) 
     for (int m = 0; m < Lanes::kMicros; ++m) {
       const bool there = i + m < a.micro_count;
       const int micro = a.micros[there ? i + m : i];
-      step.cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * kMicroCells * kPlanes : spare;
+      step.cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * stride : spare;
       step.dx[m] = there ? frame.dx[micro % kMicrosPerSide] : nowhere;
       step.band[m] = micro / kMicrosPerSide;
     }
-    const CellIo<kConflict> io(step.cell);
+    const CellIo<State, kConflict> io(step.cell);
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
       if (!Lanes::any(at.inside)) continue;
-      const auto source = discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt));
-      io.template fuse<Rule>(part, source, at.inside, stats, max_k);
+      const auto source = discounted(q, Model::measure(q, at.polar));
+      io.fuse(part, source, at.inside, a.rule, stats, max_k);
     }
   }
   const float k = Lanes::reduce_max(max_k);
   if (k > stats.max_conflict) stats.max_conflict = k;
 }
 
-template <class Rule, class Model>
+template <class State, class Model>
 void fuse_cone(const TileArgs& a, const ConeReading& q, Stats& stats) {
   if (a.micro_count == 0) return;
   if (a.conflict_plane) {
-    fuse_cone_planes<Rule, Model, true>(a, q, stats);
+    fuse_cone_planes<State, Model, true>(a, q, stats);
   } else {
-    fuse_cone_planes<Rule, Model, false>(a, q, stats);
+    fuse_cone_planes<State, Model, false>(a, q, stats);
   }
 }
 
-/// A source as memory holds it, and back: a plain one keeps its kind, so that both paths run the same functions.
-template <class V>
-EVIGRID_FN Source<V> widen(const Source<V>& m) {
-  return m;
-}
-template <class V>
-EVIGRID_FN Source<V> widen(const PlainSource<V>& m) {
-  return {m.x, m.y, m.v, V(0.0f), V(1.0f)};
-}
-template <class Kind, class V>
-EVIGRID_FN Kind narrow(const Source<V>& m) {
-  if constexpr (requires(Kind k) { k.z; }) {
-    return m;
-  } else {
-    return {m.x, m.y, m.v};
-  }
-}
 template <class Model>
 using SourceOf = decltype(Model::measure(ConeReading{}, Polar<Lanes::V>{}));
 
@@ -169,17 +177,15 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
     std::uint64_t bits = 0;
     for (int part = 0; part < kParts; ++part) {
       const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
-      const Source<Lanes::V> s =
-          widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt)));
-      alignas(64) float masses[5][Lanes::kLanes];
-      const Lanes::V* const from[5] = {&s.x, &s.y, &s.v, &s.z, &s.s};
-      float* const to[5] = {out.x, out.y, out.v, out.z, out.s};
-      for (int p = 0; p < 5; ++p) {
-        Lanes::store_flat(masses[p], *from[p]);
+      const Parts<Lanes::V> s =
+          widen(discounted(q, Model::measure(q, at.polar)));
+      alignas(64) float masses[Measured::kParts][Lanes::kLanes];
+      for (int p = 0; p < Measured::kParts; ++p) {
+        Lanes::store_flat(masses[p], s.part[p]);
         for (int lane = 0; lane < Lanes::kLanes; ++lane) {
           const int at_micro = i + lane / kMicroCells;
           if (at_micro >= a.micro_count) break;
-          to[p][a.micros[at_micro] * kMicroCells + (kParts > 1 ? part : lane % kMicroCells)] = masses[p][lane];
+          out.part[p][a.micros[at_micro] * kMicroCells + (kParts > 1 ? part : lane % kMicroCells)] = masses[p][lane];
         }
       }
       bits |= Lanes::bits(at.inside) << (kParts > 1 ? part : 0);
@@ -191,45 +197,44 @@ void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
 }
 
 /// … and masses from memory into the map.
-template <class Rule, class Model, bool kConflict>
+template <class State, class Kind, bool kConflict>
 void combine_measured_planes(const TileArgs& a, const Measured& in, Stats& stats) {
-  constexpr int kPlanes = kConflict ? 4 : 3;
+  const std::size_t stride = static_cast<std::size_t>(a.planes) * kMicroCells;
   constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
-  alignas(64) float spare[4 * kMicroCells] = {}, none[kMicroCells] = {};
+  alignas(64) float spare[kMostPlanes * kMicroCells] = {}, none[kMicroCells] = {};
   Lanes::V max_k(0.0f);
   for (int i = 0; i < a.micro_count; i += Lanes::kMicros) {
     float* cell[Lanes::kMicros];
     alignas(64) float flag[Lanes::kMicros][kMicroCells];
-    const float* source[6][Lanes::kMicros];
+    const float* source[Measured::kParts + 1][Lanes::kMicros];
     for (int m = 0; m < Lanes::kMicros; ++m) {
       const bool there = i + m < a.micro_count;
       const int micro = a.micros[there ? i + m : i];
-      cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * kMicroCells * kPlanes : spare;
-      const float* const planes[5] = {in.x, in.y, in.v, in.z, in.s};
-      for (int p = 0; p < 5; ++p) source[p][m] = there ? planes[p] + micro * kMicroCells : none;
+      cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * stride : spare;
+      for (int p = 0; p < Measured::kParts; ++p) source[p][m] = there ? in.part[p] + micro * kMicroCells : none;
       for (int c = 0; c < kMicroCells; ++c) flag[m][c] = there && (in.inside[micro] >> c & 1) != 0 ? 1.0f : 0.0f;
-      source[5][m] = flag[m];
+      source[Measured::kParts][m] = flag[m];
     }
-    const CellIo<kConflict> io(cell);
+    const CellIo<State, kConflict> io(cell);
     for (int part = 0; part < kParts; ++part) {
-      const auto inside = Lanes::load(source[5], part) > Lanes::V(0.5f);
+      const auto inside = Lanes::load(source[Measured::kParts], part) > Lanes::V(0.5f);
       if (!Lanes::any(inside)) continue;
-      const Source<Lanes::V> s{Lanes::load(source[0], part), Lanes::load(source[1], part), Lanes::load(source[2], part),
-                               Lanes::load(source[3], part), Lanes::load(source[4], part)};
-      io.template fuse<Rule>(part, narrow<SourceOf<Model>>(s), inside, stats, max_k);
+      Parts<Lanes::V> s;
+      for (int p = 0; p < Measured::kParts; ++p) s.part[p] = Lanes::load(source[p], part);
+      io.fuse(part, narrow<Kind>(s), inside, a.rule, stats, max_k);
     }
   }
   const float k = Lanes::reduce_max(max_k);
   if (k > stats.max_conflict) stats.max_conflict = k;
 }
 
-template <class Rule, class Model>
+template <class State, class Kind>
 void combine_measured(const TileArgs& a, const Measured& in, Stats& stats) {
   if (a.micro_count == 0) return;
   if (a.conflict_plane) {
-    combine_measured_planes<Rule, Model, true>(a, in, stats);
+    combine_measured_planes<State, Kind, true>(a, in, stats);
   } else {
-    combine_measured_planes<Rule, Model, false>(a, in, stats);
+    combine_measured_planes<State, Kind, false>(a, in, stats);
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // All that the engine knows of the kernels: plain pointers, chosen once per map. A tile is 64 × 64 cells in 16 × 16
 // micro-tiles of 4 × 4 cells (row-major, both); a micro-tile holds its planes side by side: 16 e, 16 o, 16 u and, where
-// the map keeps it, 16 sums of conflict. 64-byte aligned.
+// the map keeps it, 16 sums of conflict. 64-byte aligned. Rules whose state is not (e, o, u) have other planes
+// (kernels/cell/state.hpp); read_out gives their masses.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -23,16 +24,17 @@ enum RuleKernel : int {
   kDsmh,
   kPcr1,
   kPcr4,
-  kRules,
-  kConjunctive = kRules,
-  kDisjunctive,
-  kMurphy,
+  kConjunctive,
   kCautious,
+  kMurphy,
   kBayes,
   kFuzzy,
+  kDempsterLog,
+  kRules,
+  kDisjunctive = kRules,
   kBatchRules
 };
-inline constexpr int kConeModels = 2;  // hughes1992, li2014
+inline constexpr int kMostPlanes = 8;  // of one cell
 
 struct Stats {
   std::uint64_t cells = 0;            // updates
@@ -52,10 +54,20 @@ struct FanMicros {
   alignas(64) float turn_x[kRoom], turn_y[kRoom], place[kRoom], lowest[kRoom];
 };
 
+/// What some rules ask of the map beside the cell and the source.
+struct RuleArgs {
+  float sign = 1;              // −1 takes a reading back, from states that are sums
+  float unknown_share = 0.5f;  // bayes: how much of m(unknown) each likelihood gets, ½ for BetP, 1 for PlP
+  float least_log_odds = -6.9f, most_log_odds = 6.9f;  // bayes
+  bool con = false, last = false;  // planes behind the sum of conflict: Con, and k of the last update
+};
+
 /// One reading on one tile.
 struct TileArgs {
   float* cells = nullptr;
-  bool conflict_plane = false;
+  int planes = 3;               // of a cell, all of them
+  bool conflict_plane = false;  // add k to the plane behind the state's
+  RuleArgs rule{};
   float x0 = 0, y0 = 0;                  // offset of the tile's first cell centre from the apex, exact
   const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched; ascending
   int micro_count = 0;
@@ -64,7 +76,8 @@ struct TileArgs {
 
 /// Masses of one reading on the listed micro-tiles, kept apart from the map: the unfused path.
 struct Measured {
-  alignas(64) float x[4096], y[4096], v[4096], z[4096], s[4096];
+  static constexpr int kParts = 6;
+  alignas(64) float part[kParts][4096];  // x, y, v, z, s and what else a source knows (Pack in cell/mass.hpp)
   std::uint16_t inside[256];
 };
 
@@ -97,6 +110,9 @@ struct KernelTable {
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
   void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
   void (*combine_measured[kRules][kConeModels])(const TileArgs&, const Measured&, Stats&);
+  /// Masses of `micros` micro-tiles, one after the other from `cells` on: 16 e, 16 o, 16 u, 16 c each, to `out`; both
+  /// 64-byte aligned.
+  void (*read_out[kRules])(const float* cells, int planes, int micros, float* out);
   std::uint64_t (*dense[kBatchRules])(const DensePlanes&, std::size_t begin, std::size_t end);
   std::uint64_t (*dense16[kBatchRules])(const Dense16Planes&, std::size_t begin, std::size_t end);
 };
@@ -105,7 +121,7 @@ struct KernelTable {
 struct PointMass {
   float x, y, v, z, s;
 };
-PointMass measure_point(int cone_model, const ConeReading&, float nl, float nr, float d2, float edge);
+PointMass measure_point(int cone_model, const ConeReading&, float nl, float nr, float d2, float edge, float outer);
 
 /// The dense combination in double, scalar. Answers how many pairs were in total conflict.
 std::uint64_t dense_double(int rule, const DoublePlanes&, std::size_t begin, std::size_t end);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One target's table: every rule × model expanded from the same text, in several files, so that they compile side by
-// side: the models and the rules of table_*.cpp here, two more groups of rules in table_*_pcr.cpp and table_*_pcr14.cpp
-// (pcr_table.hpp). Included last.
+// side: the models and the rules of table_*.cpp here, more groups of rules in table_*_pcr.cpp, table_*_pcr14.cpp and
+// table_*_states.cpp (fill_*.hpp). Included last.
 #pragma once
 
 #include "kernels/cell/rule_dempster.hpp"
@@ -18,13 +18,19 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   t.lanes = lanes;
   t.compile_fan = compile_fan;
   t.select_fan = select_fan;
-  t.measure_cone[0] = measure_cone<ModelHughes1992>;
-  t.measure_cone[1] = measure_cone<ModelLi2014>;
+  t.measure_cone[kHughes1992] = measure_cone<ModelHughes1992>;
+  t.measure_cone[kLi2014] = measure_cone<ModelLi2014>;
+  t.measure_cone[kOriolo1997] = measure_cone<ModelOriolo1997>;
+  t.measure_cone[kLi2006] = measure_cone<ModelLi2006>;
+  t.measure_cone[kProbability] = measure_cone<ModelProbability>;
+  t.measure_cone[kFuzzyModel] = measure_cone<ModelFuzzy>;
+  t.measure_cone[kMoravec1985] = measure_cone<ModelMoravec1985>;
   fill_rule<Dempster>(t, kDempster);
   fill_rule<Yager>(t, kYager);
   fill_paradox_rule<Dsmh>(t, kDsmh, kYager);
   fill_pcr(t);
   fill_pcr14(t);
+  fill_states(t);
   EVIGRID_BATCH_NAMESPACE::fill_batch(t);
   return t;
 }

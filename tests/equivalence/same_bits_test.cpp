@@ -112,13 +112,19 @@ TEST_P(SameBits, WithDenormalsFlushedToZero) {
   EXPECT_EQ(plain.hash, flushed.hash);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SameBits,
-                         ::testing::Combine(::testing::ValuesIn(map_rules().begin(), map_rules().end()),
-                                            ::testing::Values(Model::hughes1992, Model::li2014)),
-                         [](const auto& which) {
-                           return std::string(name(std::get<0>(which.param))) + "_" +
-                                  std::string(name(std::get<1>(which.param)));
-                         });
+std::vector<std::tuple<Rule, Model>> allowed_pairs() {
+  std::vector<std::tuple<Rule, Model>> out;
+  for (const Rule rule : map_rules()) {
+    for (const Model model : all_models()) {
+      if (model != Model::beam && why_not_together(rule, model).empty()) out.emplace_back(rule, model);
+    }
+  }
+  return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SameBits, ::testing::ValuesIn(allowed_pairs()), [](const auto& which) {
+  return std::string(name(std::get<0>(which.param))) + "_" + std::string(name(std::get<1>(which.param)));
+});
 
 }  // namespace
 }  // namespace evigrid::testing

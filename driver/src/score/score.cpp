@@ -170,7 +170,9 @@ Score score(const Layers& map, const scenes::TruthGrid& truth, const Overlay& bo
       const std::int64_t mx = x - m.x, my = y - m.y;
       if (mx >= 0 && my >= 0 && mx < m.width && my < m.height) {
         const auto k = static_cast<std::size_t>(my * m.width + mx);
-        belief = {map.e()[k], map.o()[k], map.u()[k]};
+        const double known = static_cast<double>(map.e()[k]) + map.o()[k] + map.u()[k];  // without m(∅)
+        const double by = map.optional(map.paradox, k) > 0 && known > 0 ? known : 1;
+        belief = {map.e()[k] / by, map.o()[k] / by, map.u()[k] / by};
       }
       means.add(belief, cell == TruthCell::surface);
     }

@@ -66,4 +66,8 @@ void from_unorm16(Unorm16Planes<const std::uint16_t> from, Planes<float> to, std
 std::string_view resolve_kernel_name(Kernel);
 bool kernel_available(Kernel) noexcept;
 
+/// Membership in "occupied for planning" of chapter 14, eq. 14.18, from those of empty and of occupied:
+/// 1 − Ψ²(1 − Ω)(1 − ΨΩ)(1 − (1 − Ψ)(1 − Ω)). Never seen is 1.
+[[nodiscard]] double fuzzy_map(double empty, double occupied) noexcept;
+
 }  // namespace evigrid

@@ -36,8 +36,9 @@ enum class Refusal : std::uint8_t {
   wrong_beam_count,  ///< a fan's reading with another number of ranges than declared (counted once)
   unknown_sensor,    ///< a sensor that was never added (counted once)
   pose_not_finite,   ///< the scan's pose, or one too far away to index (every range counted)
+  false_reflection,  ///< a cone's reading that leaves its neighbours too far (MapParams::false_reflection_m)
 };
-inline constexpr int kRefusalCount = 8;
+inline constexpr int kRefusalCount = 9;
 std::string_view name(Refusal) noexcept;
 
 struct Report {

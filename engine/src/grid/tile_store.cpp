@@ -10,8 +10,8 @@ namespace evigrid {
 
 void FreeAligned::operator()(float* p) const noexcept { std::free(p); }
 
-TileStore::TileStore(bool conflict_plane, std::size_t cap_bytes)
-    : planes_(conflict_plane ? 4 : 3), cap_bytes_(cap_bytes) {}
+TileStore::TileStore(CellLayout layout, std::size_t cap_bytes)
+    : layout_(std::move(layout)), planes_(static_cast<int>(layout_.planes.size())), cap_bytes_(cap_bytes) {}
 
 std::size_t TileStore::tile_bytes() const noexcept {
   return static_cast<std::size_t>(kernels::kTileSide * kernels::kTileSide * planes_) * sizeof(float);
@@ -39,11 +39,10 @@ Tile& TileStore::get_or_make(TileIndex at) {
       tiles_.erase(it);
       throw std::bad_alloc();
     }
-    // Vacuous: e = 0, o = 0, u = 1, conflict 0.
     float* p = tile.cells.get();
     for (int micro = 0; micro < kernels::kMicrosPerTile; ++micro) {
-      for (int plane = 0; plane < planes_; ++plane) {
-        for (int i = 0; i < kernels::kMicroCells; ++i) *p++ = plane == 2 ? 1.0f : 0.0f;
+      for (const Plane& plane : layout_.planes) {
+        for (int i = 0; i < kernels::kMicroCells; ++i) *p++ = plane.vacuous;
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 
+#include "grid/cell_layout.hpp"
 #include "kernels/row/kernel_table.hpp"
 
 namespace evigrid {
@@ -39,7 +40,8 @@ struct Tile {
 
 class TileStore {
  public:
-  TileStore(bool conflict_plane, std::size_t cap_bytes);
+  TileStore(CellLayout layout, std::size_t cap_bytes);
+  [[nodiscard]] const CellLayout& layout() const noexcept { return layout_; }
   [[nodiscard]] int planes() const noexcept { return planes_; }
   [[nodiscard]] std::size_t tile_bytes() const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return tiles_.size(); }
@@ -60,6 +62,7 @@ class TileStore {
   }
 
  private:
+  CellLayout layout_;
   int planes_;
   std::size_t cap_bytes_;
   std::map<TileIndex, Tile> tiles_;
