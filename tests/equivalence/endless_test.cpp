@@ -60,12 +60,14 @@ TEST(Endless, AMillionUpdatesOfACellStayMasses) {
           }
           for (int i = 0; i < kMicroCells; ++i) {
             const float e = masses[i], o = masses[16 + i], u = masses[32 + i], c = masses[48 + i];
-            for (const float m : {e, o, u, c}) ASSERT_TRUE(is_number(m) && m >= 0 && m <= 1.001f) << name(map_rule) << m;
+            for (const float m : {e, o, u, c})
+              ASSERT_TRUE(is_number(m) && m >= 0 && m <= 1.001f) << name(map_rule) << m;
             const double sum = static_cast<double>(e) + o + u + c;  // of memberships 1 + 2 e o
             worst = std::max(worst, std::fabs(sum - 1 - (map_rule == Rule::fuzzy ? 2.0 * e * o : 0)));
           }
         }
-        EXPECT_GT(stats.cells, static_cast<std::uint64_t>(kUpdates)) << name(map_rule) << ' ' << model << ' ' << turns.size();
+        EXPECT_GT(stats.cells, static_cast<std::uint64_t>(kUpdates))
+            << name(map_rule) << ' ' << model << ' ' << turns.size();
         EXPECT_LE(worst, 4e-7) << name(map_rule) << ' ' << model << ' ' << turns.size();
       }
     }

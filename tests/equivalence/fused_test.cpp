@@ -60,7 +60,8 @@ TEST(Fused, EqualsUnfused) {
         EXPECT_GT(a.cells, 2000u);  // the comparison is not of nothing
         EXPECT_EQ(a.cells, b.cells);
         EXPECT_EQ(a.max_conflict, b.max_conflict);
-        EXPECT_EQ(0, std::memcmp(fused->cells, unfused->cells, sizeof fused->cells)) << table_name << name(map_rule) << model;
+        EXPECT_EQ(0, std::memcmp(fused->cells, unfused->cells, sizeof fused->cells))
+            << table_name << name(map_rule) << model;
       }
     }
   }
