@@ -56,8 +56,8 @@ SensorId Map::add(const Sensor& sensor) {
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
 Report Map::integrate(std::span<const Scan> scans) {
   Impl& m = *impl_;
-  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns},
-                            scans);
+  return evigrid::integrate(
+      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns}, scans);
 }
 
 Report Map::undo(const Scan& scan) { return undo(std::span<const Scan>(&scan, 1)); }
@@ -68,7 +68,8 @@ Report Map::undo(std::span<const Scan> scans) {
                            " cannot take a scan back: its cells are no sums");
   }
   return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns, true}, scans);
+      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns, true},
+      scans);
 }
 
 Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }

@@ -16,8 +16,8 @@ namespace oracle {
 
 inline constexpr double kMassBound = 2e-6;  ///< per mass; for the running conflict, and where c is one: per update
 
-/// A weight is a mass over v: where li2014 says v = 1e-4 and is off by 7e-9 the weight is off by 7e-5 of itself. Sums of
-/// logarithms see that as 7e-5 of their hundreds; the larger of two weights shows all of it.
+/// A weight is a mass over v: where li2014 says v = 1e-4 and is off by 7e-9 the weight is off by 7e-5 of itself. Sums
+/// of logarithms see that as 7e-5 of their hundreds; the larger of two weights shows all of it.
 inline double mass_bound(evigrid::Rule rule, const evigrid::Sensor& s) {
   const bool all = rule == evigrid::Rule::cautious && s.model == evigrid::Model::li2014 && s.reliability == 1;
   return all ? 1e-4 : kMassBound;
@@ -68,7 +68,8 @@ class Both {
       d.most_updates = std::max(d.most_updates, want.updates);
       if (held == want.vacuous()) ++d.membership, d.at = describe(index, got, want);
       in_both += held;
-      double mass = std::max({std::fabs(got.e - want.e), std::fabs(got.o - want.o), std::fabs(got.u - want.u), std::fabs(got.c - want.c)});
+      double mass = std::max(
+          {std::fabs(got.e - want.e), std::fabs(got.o - want.o), std::fabs(got.u - want.u), std::fabs(got.c - want.c)});
       if (!(mass <= 2)) mass = 2;
       if (const auto rule = engine_.params().rule; rule == evigrid::Rule::conjunctive || rule == evigrid::Rule::dsmc)
         mass /= static_cast<double>(std::max<std::uint64_t>(1, want.updates));

@@ -127,6 +127,28 @@ TEST_P(ReferenceCone, FiveSinglePassesUnderEveryRuleAndAperture) {
     }
 }
 
+// Contextual discount before Shafer's, and the weights of conflict, reading by reading.
+TEST_P(ReferenceCone, ContextualReliabilityAndCon) {
+  for (Rule rule : {Rule::pcr5, Rule::germ_pcr2, Rule::yager, Rule::conjunctive, Rule::dempster_log, Rule::fuzzy}) {
+    SCOPED_TRACE(std::string(name(rule)));
+    Both both({.cell_m = 0.1, .rule = rule, .keep_con = true, .keep_last_conflict = true});
+    Sensor s = sonar(GetParam(), 25), other = s;
+    s.reliability_if_empty = 0.7, s.reliability_if_occupied = 0.9, s.reliability = 0.95;
+    other.reliability_if_occupied = 0.4;
+    const auto a = both.add(s), b = both.add(other);
+    for (int i = 0; i < 24; ++i) {
+      const float range_m = 0.7F + 0.15F * static_cast<float>(i % 9);
+      both.integrate({0.05 * i, 0.031 * i, 0.2 * i}, i % 2 == 0 ? a : b, {&range_m, 1});
+    }
+    both.expect_equal_reports();
+    expect_within_bounds(both.difference());
+    for (const auto& [index, want] : both.reference().cells()) {
+      ASSERT_NEAR(both.engine().con(index), want.con, 1e-5 * static_cast<double>(want.updates));
+      ASSERT_NEAR(both.engine().last_conflict(index), want.last, 2e-6);
+    }
+  }
+}
+
 TEST_P(ReferenceCone, UtmSizedCoordinates) {
   for (double cell_m : {0.1, 0.05}) {
     const Difference d = drive_ring(GetParam(), Rule::pcr5, 25, 0.9, {500000.123, 5000000.456, 1.1}, cell_m, 8);

@@ -189,9 +189,9 @@ void ReferenceMap::sweep(const Declared& declared, const Pose2& pose, double rad
       const double d_squared = dx * dx + dy * dy;
       Source source;
       if (d_squared > disc || !say(dx, dy, d_squared, source)) continue;
-      update(cells_[{x.cell + i, y.cell + j}], discount(contextual(source, declared.sensor.reliability_if_empty,
-                                                                     declared.sensor.reliability_if_occupied),
-                                                          declared.sensor.reliability));
+      update(cells_[{x.cell + i, y.cell + j}],
+             discount(contextual(source, declared.sensor.reliability_if_empty, declared.sensor.reliability_if_occupied),
+                      declared.sensor.reliability));
     }
 }
 

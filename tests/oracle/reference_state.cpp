@@ -32,8 +32,8 @@ Masses with_ignorance(Masses m) {
 
 double floored(Long x, Long least) { return static_cast<double>(x < least ? 0 : x); }
 StateAnswer answer(const Masses& m, Long conflict, Long least = kLeastMass) {
-  return {floored(m[kEmpty], least), floored(m[kOccupied], least),
-          std::max(static_cast<double>(m[kUnknown]), 1e-30), floored(m[kBoth], least), static_cast<double>(conflict)};
+  return {floored(m[kEmpty], least), floored(m[kOccupied], least), std::max(static_cast<double>(m[kUnknown]), 1e-30),
+          floored(m[kBoth], least), static_cast<double>(conflict)};
 }
 
 Long product_conflict(const Masses& a, const Masses& b) { return a[kEmpty] * b[kOccupied] + a[kOccupied] * b[kEmpty]; }

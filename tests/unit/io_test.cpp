@@ -95,8 +95,13 @@ TEST(SavedMap, TheLastStampIsKept) {
 }
 
 TEST(SavedMap, EveryParameterComesBack) {
-  Map map({.cell_m = 0.1 + 1e-17 + 1.0 / 3, .rule = Rule::pcr2, .kernel = Kernel::scalar, .keep_con = true,
-           .keep_last_conflict = true, .bayes = {Likelihood::plp, 0.01, 0.98}, .memory_cap_bytes = 1 << 25});
+  Map map({.cell_m = 0.1 + 1e-17 + 1.0 / 3,
+           .rule = Rule::pcr2,
+           .kernel = Kernel::scalar,
+           .keep_con = true,
+           .keep_last_conflict = true,
+           .bayes = {Likelihood::plp, 0.01, 0.98},
+           .memory_cap_bytes = 1 << 25});
   Sensor s;  // no field has its default
   s.model = Model::beam;
   s.T_robot_sensor = {0.1, -0.2, 1.0 / 3};

@@ -72,7 +72,8 @@ TEST(Layers, FollowTheSetDefinitions) {
     const double eps = 1e-3;  // DSmP: m(unknown) in proportion to the masses of the two, and ε each
     near(Layer::dsmp, s.m[2] + s.m[3] * (s.m[2] + eps) / (s.m[1] + s.m[2] + 2 * eps));
     if (m.c == 0) {  // the chapter's other names
-      near(Layer::betp, (s.m[1] + s.m[2] + s.m[3] + s.m[2] - s.m[1]) / 2);  // (1 + o − e)/2, the 1 as these floats add up
+      near(Layer::betp,
+           (s.m[1] + s.m[2] + s.m[3] + s.m[2] - s.m[1]) / 2);  // (1 + o − e)/2, the 1 as these floats add up
       ASSERT_NEAR(value_of(Layer::pl, m), std::max(1.0 - m.e, static_cast<double>(m.o)), 2e-7);
     }
     const Decision d = decide(m);
@@ -86,7 +87,8 @@ TEST(Layers, FollowTheSetDefinitions) {
 
 TEST(Layers, VacuousAndDegenerateCells) {
   const Mass vacuous;
-  for (const Layer l : {Layer::betp, Layer::plp, Layer::dsmp, Layer::decision, Layer::decision_betp, Layer::specificity})
+  for (const Layer l :
+       {Layer::betp, Layer::plp, Layer::dsmp, Layer::decision, Layer::decision_betp, Layer::specificity})
     EXPECT_EQ(value_of(l, vacuous), .5) << name(l);
   EXPECT_EQ(value_of(Layer::entropy, vacuous), 1);
   for (const Mass m : {Mass{1, 0, 0}, Mass{0, 1, 0}, Mass{0, 0, 0, 1}, Mass{.5F, .5F, 0}}) {

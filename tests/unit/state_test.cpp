@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps whose state is not (e, o, u): sums in any order, taking back, repeated readings, Bayes against Dempster, history.
+// Maps whose state is not (e, o, u): sums in any order, taking back, repeated readings, Bayes against Dempster,
+// history.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -151,7 +152,9 @@ struct Duel {
     Sensor s;
     s.model = Model::beam;
     s.beams = 1, s.beam_step_rad = 0.5, s.min_range_m = 0.01, s.max_range_m = 100;
-    s.beam = {.empty = 0.6 / (1 - 1.05 / 200), .occupied = 0.6 / (1 - 1.05 / 200), .empty_margin_m = 0.15,
+    s.beam = {.empty = 0.6 / (1 - 1.05 / 200),
+              .occupied = 0.6 / (1 - 1.05 / 200),
+              .empty_margin_m = 0.15,
               .occupied_half_width_m = 0.1};
     near = far = map.add(s);
   }

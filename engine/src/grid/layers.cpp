@@ -33,11 +33,11 @@ struct Row {
   Formula of;
 };
 constexpr Formula kHistory = [](const Mass&, const Closed&, const ReadOutParams&) { return 0.0; };
-#define EVIGRID_LAYER(word, expression)                                                                          \
-  Row {                                                                                                          \
-    Layer::word, #word,                                                                                          \
-        []([[maybe_unused]] const Mass& raw, [[maybe_unused]] const Closed& m,                                   \
-           [[maybe_unused]] const ReadOutParams& p) { return static_cast<double>(expression); }                  \
+#define EVIGRID_LAYER(word, expression)                                                         \
+  Row {                                                                                         \
+    Layer::word, #word,                                                                         \
+        []([[maybe_unused]] const Mass& raw, [[maybe_unused]] const Closed& m,                  \
+           [[maybe_unused]] const ReadOutParams& p) { return static_cast<double>(expression); } \
   }
 constexpr auto kRows = std::to_array<Row>({
     EVIGRID_LAYER(betp, betp(m)),
@@ -59,8 +59,8 @@ constexpr auto kRows = std::to_array<Row>({
     EVIGRID_LAYER(entropy, part_of_entropy(betp(m), betp(m)) + part_of_entropy(1 - betp(m), 1 - betp(m))),
     EVIGRID_LAYER(decision, half_for(decide(raw))),
     EVIGRID_LAYER(decision_betp, half_for(decide_by_betp(raw, p.betp_at_least))),
-    EVIGRID_LAYER(fuzzy_map, 1 - raw.e * raw.e * (1.0 - raw.o) * (1.0 - raw.e * raw.o) *
-                                     (1 - (1.0 - raw.e) * (1.0 - raw.o))),
+    EVIGRID_LAYER(fuzzy_map,
+                  1 - raw.e * raw.e * (1.0 - raw.o) * (1.0 - raw.e * raw.o) * (1 - (1.0 - raw.e) * (1.0 - raw.o))),
     Row{Layer::conflict, "conflict", kHistory},
     Row{Layer::con, "con", kHistory},
     Row{Layer::last_conflict, "last_conflict", kHistory},

@@ -70,9 +70,7 @@ void layer_of(Layer layer, const ReadOutParams& params, const Micro& m, float* o
       }
       [[fallthrough]];
     default:
-      return each([&](int i) {
-        return static_cast<float>(value_of(layer, {m.e[i], m.o[i], m.u[i], m.c[i]}, params));
-      });
+      return each([&](int i) { return static_cast<float>(value_of(layer, {m.e[i], m.o[i], m.u[i], m.c[i]}, params)); });
   }
 }
 
@@ -84,8 +82,8 @@ void require_room(CellRect rect, std::size_t size, std::ptrdiff_t stride) {
 }
 
 /// The part of `rect` in one tile, micro-tile by micro-tile: of(micro, out) makes 16 values, straight from the planes
-/// where these are masses so that the compiler sees vectors; those within the rectangle go to their rows. `part` lies in
-/// the tile.
+/// where these are masses so that the compiler sees vectors; those within the rectangle go to their rows. `part` lies
+/// in the tile.
 template <class T, class F>
 void fill_tile(const TileStore& store, const Tile& tile, CellRect part, T* to, std::ptrdiff_t stride, F&& of) {
   const int x0 = static_cast<int>(part.x & 63), x1 = x0 + static_cast<int>(part.width);
@@ -215,13 +213,12 @@ CellRect occupied_bounds(const TileStore& store) {
   return {x0, y0, x1 - x0 + 1, y1 - y0 + 1};
 }
 
-void render_layer(const TileStore& store, Layer layer, const ReadOutParams& params, CellRect rect,
-                  std::span<float> out, std::ptrdiff_t stride) {
+void render_layer(const TileStore& store, Layer layer, const ReadOutParams& params, CellRect rect, std::span<float> out,
+                  std::ptrdiff_t stride) {
   constexpr float kUnknown[kCells] = {1};
   float never_seen[kCells];
   layer_of(layer, params, {kZeros, kZeros, kUnknown, kZeros, kZeros, kZeros, kZeros}, never_seen);
-  fill(store, rect, out, stride, never_seen[0],
-       [&](const Micro& m, float* to) { layer_of(layer, params, m, to); });
+  fill(store, rect, out, stride, never_seen[0], [&](const Micro& m, float* to) { layer_of(layer, params, m, to); });
 }
 
 std::int8_t occupancy_of(const Costmap& c, const Mass& m) noexcept {
