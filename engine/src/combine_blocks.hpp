@@ -17,8 +17,6 @@ inline constexpr std::size_t kCombineBlock = std::size_t{1} << 16;  // cells: 1.
 /// Throws std::invalid_argument when it cannot run here.
 const kernels::KernelTable& table_of(Kernel);
 
-/// Rules whose result holds mass on empty ∩ occupied.
-
 /// Cells [begin, end) of the call in combine.hpp.
 std::uint64_t combine_range(const kernels::KernelTable&, Rule, Planes<const float> a, Planes<const float> b,
                             Planes<float> c, float* conflict, std::size_t begin, std::size_t end);
