@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "caster.hpp"
+#include "nearest_echo.hpp"
 #include "parallel.hpp"
 #include "query.hpp"
 #include "visibility.hpp"
@@ -37,25 +38,14 @@ class FromApex : public SurfaceIndex::Visitor {
   Vec2 apex_;
 };
 
-/// Nearest surface point that gives an echo, and nearest one that does not.
-class Nearest : public FromApex {
+/// The nearest echo of one index.
+class Nearest : public FromApex, public NearestEcho {
  public:
-  Nearest(const Wedge& wedge, double max_range_m) : wedge_(wedge), max_range_m_(max_range_m) {}
-
+  using NearestEcho::NearestEcho;
   double visit(const Surface& surface, std::uint32_t, double radius_m) override {
-    const Surface s = seen(surface);
-    const auto point = nearest_in_wedge(s, wedge_);
-    if (!point) return radius_m;
-    double& nearest = gives_echo(s, *point, max_range_m_) ? echo_m : silent_m;
-    nearest = std::min(nearest, length(*point));
-    return std::min({radius_m, echo_m, silent_m});
+    consider(seen(surface));
+    return std::min(radius_m, first_m());
   }
-
-  double echo_m = kInfinity, silent_m = kInfinity;
-
- private:
-  const Wedge& wedge_;
-  double max_range_m_;
 };
 
 /// All surfaces near by, in the order of their numbers whatever order the tree gives.

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "crossing.hpp"
+#include "reject.hpp"
 #include "tolerance.hpp"
 
 namespace evigrid::raycast {
@@ -22,17 +23,28 @@ constexpr double kBeside_rad = 1e-8;
 
 struct Seen {
   Surface surface;
-  double nearest_m;  ///< lower bound of its distance in the wedge
+  double nearest_m;  ///< of its points in the wedge
+};
+
+struct Candidate {
+  double range_m;
+  Vec2 direction;
 };
 
 class Visibility {
  public:
   Visibility(const std::vector<Surface>& surfaces, const Wedge& wedge, double max_range_m)
       : wedge_(wedge), best_m_(std::nextafter(max_range_m + kContact_m, kInfinity)), max_range_m_(max_range_m) {
-    for (const Surface& s : surfaces)
-      if (const auto p = nearest_in_wedge(s, wedge)) seen_.push_back({s, length(*p)});
-    std::sort(seen_.begin(), seen_.end(), [](const Seen& l, const Seen& r) { return l.nearest_m < r.nearest_m; });
-    for (const Seen& seen : seen_) add_events(seen.surface);
+    // What is too far away neither answers nor hides: without it the answer is that of the surfaces in the cone alone,
+    // and not of what an index proposed.
+    const double reach_m = max_range_m + kContact_m;
+    for (const Surface& s : surfaces) {
+      if (surely_outside(s, wedge, reach_m)) continue;
+      const auto p = nearest_in_wedge(s, wedge);
+      if (!p) continue;
+      if (const double nearest_m = length(*p); nearest_m <= reach_m) seen_.push_back({s, nearest_m});
+    }
+    std::stable_sort(seen_.begin(), seen_.end(), [](const Seen& l, const Seen& r) { return l.nearest_m < r.nearest_m; });
   }
 
   double solve() {
@@ -62,6 +74,8 @@ class Visibility {
       best_m_ = nearest;
       return;
     }
+    if (events_.empty())
+      for (const Seen& seen : seen_) add_events(seen.surface);
     const Surface& surface = seen_[i].surface;
     candidates_.clear();
     const auto add = [&](Vec2 u) {
@@ -101,10 +115,6 @@ class Visibility {
     return true;
   }
 
-  struct Candidate {
-    double range_m;
-    Vec2 direction;
-  };
   Wedge wedge_;
   double best_m_, max_range_m_;
   std::vector<Seen> seen_;  ///< nearest first
