@@ -44,7 +44,8 @@ class Visibility {
       if (!p) continue;
       if (const double nearest_m = length(*p); nearest_m <= reach_m) seen_.push_back({s, nearest_m});
     }
-    std::stable_sort(seen_.begin(), seen_.end(), [](const Seen& l, const Seen& r) { return l.nearest_m < r.nearest_m; });
+    std::stable_sort(seen_.begin(), seen_.end(),
+                     [](const Seen& l, const Seen& r) { return l.nearest_m < r.nearest_m; });
   }
 
   double solve() {
