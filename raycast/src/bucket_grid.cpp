@@ -9,24 +9,13 @@ namespace evigrid::raycast {
 namespace {
 
 /// Surfaces to a bucket, on average, that the size is chosen for.
-constexpr double kPerBucket = 6;
+static const double kPerBucket = std::getenv("PB") ? std::atof(std::getenv("PB")) : 6;
 /// At most this many buckets along a side.
 constexpr double kMostAlong = 1024;
 /// A neighbourhood of more buckets than this is not gathered.
 constexpr std::int64_t kMostAround = 4096;
 /// Rounding of float coordinates and of products with directions, several times over (capsules_kernel.hpp).
 constexpr double kFloatMargin = 4e-6;
-
-/// Puts the few proposals in the order of their distance.
-void sort(Proposals& p, std::size_t count) {
-  for (std::size_t i = 1; i < count; ++i) {
-    const float nearest = p.nearest_m[i];
-    const std::uint32_t name = p.name[i];
-    std::size_t k = i;
-    for (; k > 0 && p.nearest_m[k - 1] > nearest; --k) p.nearest_m[k] = p.nearest_m[k - 1], p.name[k] = p.name[k - 1];
-    p.nearest_m[k] = nearest, p.name[k] = name;
-  }
-}
 
 }  // namespace
 
@@ -116,43 +105,43 @@ void BucketGrid::for_each_cell(const Surface& s, const Take& take) const {
 bool BucketGrid::gather(Vec2 low, Vec2 high, Vec2 centre, Neighbourhood& n) const {
   const double margin = margin_m_ + kFloatMargin * (std::abs(centre.x - origin_.x) + std::abs(centre.y - origin_.y));
   const Cells c = cells_of(low - Vec2{margin, margin}, high + Vec2{margin, margin});
-  std::fill(std::begin(n.zone), std::end(n.zone), 0);
+  std::fill(std::begin(n.ring), std::end(n.ring), 0);
   n.centre = centre;
+  n.count = 0;
   n.buckets.half_m = static_cast<float>(size_m_ / 2);
   n.found.clear();
-  n.zone_of.clear();
+  n.ring_of.clear();
   if (c.x0 > c.x1 || c.y0 > c.y1) return true;
   if ((c.x1 - c.x0 + 1) * (c.y1 - c.y0 + 1) > kMostAround) return false;
-  const auto middle = [&](std::int64_t column, std::int64_t row) {
-    return low_ + size_m_ * Vec2{static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5};
-  };
+  // Where the centre is; outside the grid it is taken to be at the border, and rings are nearer than they are.
+  const Cells middle = cells_of(centre, centre);
+  const std::int64_t x = std::min(middle.x0, columns_ - 1), y = std::min(middle.y0, rows_ - 1);
   for (std::int64_t row = c.y0; row <= c.y1; ++row)
     for (std::int64_t column = c.x0; column <= c.x1; ++column) {
       const auto cell = static_cast<std::uint32_t>(row * columns_ + column);
       if (first_[cell] == first_[cell + 1]) continue;
-      const Vec2 p = middle(column, row) - centre;
-      // In the larger of both coordinates, which is never more than the distance.
-      const double away = std::max(std::abs(p.x), std::abs(p.y)) / size_m_ - 0.5;
-      std::uint32_t zone = 0;
-      for (double from = 2; zone + 1 < Neighbourhood::kZones && away >= from; from *= 2) ++zone;
+      const auto away = static_cast<std::uint32_t>(std::max(std::abs(column - x), std::abs(row - y)));
+      const std::uint32_t ring = std::min(away, Neighbourhood::kRings - 1);
       n.found.push_back(cell);
-      n.zone_of.push_back(zone);
-      ++n.zone[zone + 1];
+      n.ring_of.push_back(ring);
+      ++n.ring[ring + 1];
     }
-  for (int k = 0; k < Neighbourhood::kZones; ++k) n.zone[k + 1] += n.zone[k];
+  n.count = static_cast<std::uint32_t>(n.found.size());
+  for (std::uint32_t k = 0; k < Neighbourhood::kRings; ++k) n.ring[k + 1] += n.ring[k];
   const std::size_t room = n.found.size() + kSpare;
   if (n.buckets.x.size() < room) {
     n.buckets.x.resize(room), n.buckets.y.resize(room);
     n.buckets.begin.resize(room), n.buckets.end.resize(room);
   }
-  std::uint32_t next[Neighbourhood::kZones];
-  std::copy_n(n.zone, Neighbourhood::kZones, next);
-  for (std::size_t i = 0; i < n.found.size(); ++i) {
-    const std::uint32_t cell = n.found[i], at = next[n.zone_of[i]]++;
-    const Vec2 p = middle(cell % columns_, cell / columns_) - origin_;
+  // From the outermost back, so that ring[k] ends at the first one of its ring.
+  for (std::size_t i = n.found.size(); i-- > 0;) {
+    const std::uint32_t cell = n.found[i], at = --n.ring[n.ring_of[i] + 1];
+    const Vec2 p = low_ - origin_ + size_m_ * Vec2{cell % columns_ + 0.5, cell / columns_ + 0.5};
     n.buckets.x[at] = static_cast<float>(p.x), n.buckets.y[at] = static_cast<float>(p.y);
     n.buckets.begin[at] = first_[cell], n.buckets.end[at] = first_[cell + 1];
   }
+  for (std::uint32_t k = 0; k < Neighbourhood::kRings; ++k) n.ring[k] = n.ring[k + 1];
+  n.ring[Neighbourhood::kRings] = n.count;
   return true;
 }
 
@@ -166,54 +155,6 @@ FloatWedge BucketGrid::in_float(const Wedge& wedge, Vec2 apex, double limit_m) c
           f(wedge.arc.left.x),
           f(wedge.arc.left.y),
           f(margin_m_ + kFloatMargin * (std::abs(p.x) + std::abs(p.y) + limit_m))};
-}
-
-void BucketGrid::search(const std::vector<Surface>& surfaces, const Neighbourhood& n, const Wedge& wedge, Vec2 apex,
-                        NearestEcho& nearest, Room& room) const {
-  const FloatWedge w = in_float(wedge, apex, nearest.limit_m());
-  const double moved_m = length(apex - n.centre);
-  room.surfaces.make_room(fullest_);
-  room.buckets.make_room(n.found.size());
-  std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
-  for (int zone = 0; zone < Neighbourhood::kZones; ++zone) {
-    const double from_m = zone == 0 ? 0 : std::ldexp(size_m_, zone) - moved_m - margin_m_;
-    if (from_m > nearest.limit_m()) return;
-    if (n.zone[zone] == n.zone[zone + 1]) continue;
-    const std::size_t buckets = kernel_->squares(n.buckets, n.zone[zone], n.zone[zone + 1], w,
-                                                 static_cast<float>(nearest.limit_m()), room.buckets);
-    sort(room.buckets, buckets);
-    for (std::size_t b = 0; b < buckets && room.buckets.nearest_m[b] <= nearest.limit_m(); ++b) {
-      const std::uint32_t bucket = room.buckets.name[b];
-      const std::size_t count = kernel_->capsules(capsules_, n.buckets.begin[bucket], n.buckets.end[bucket], w,
-                                                  static_cast<float>(nearest.limit_m()), room.surfaces, 0);
-      sort(room.surfaces, count);
-      for (std::size_t i = 0; i < count && room.surfaces.nearest_m[i] <= nearest.limit_m(); ++i) {
-        const std::uint32_t number = room.surfaces.name[i];
-        if (number == last) continue;  // it passes through the bucket before, too
-        nearest.consider(seen_from(surfaces[number], apex));
-        last = number;
-      }
-    }
-  }
-}
-
-void BucketGrid::collect(const Neighbourhood& n, const Wedge& wedge, Vec2 apex, double limit_m, Room& room,
-                         std::vector<std::uint32_t>& numbers) const {
-  const FloatWedge w = in_float(wedge, apex, limit_m);
-  const auto limit = static_cast<float>(limit_m);
-  room.buckets.make_room(n.found.size());
-  const std::size_t buckets =
-      kernel_->squares(n.buckets, 0, static_cast<std::uint32_t>(n.found.size()), w, limit, room.buckets);
-  std::size_t count = 0;
-  for (std::size_t b = 0; b < buckets; ++b) {
-    const std::uint32_t bucket = room.buckets.name[b];
-    room.surfaces.make_room(count + fullest_);
-    count =
-        kernel_->capsules(capsules_, n.buckets.begin[bucket], n.buckets.end[bucket], w, limit, room.surfaces, count);
-  }
-  numbers.assign(room.surfaces.name.begin(), room.surfaces.name.begin() + static_cast<std::ptrdiff_t>(count));
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 }  // namespace evigrid::raycast

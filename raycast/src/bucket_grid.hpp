@@ -8,10 +8,21 @@
 #include <vector>
 
 #include "capsules.hpp"
-#include "nearest_echo.hpp"
+#include "rays.hpp"
 #include "surface.hpp"
 
 namespace evigrid::raycast {
+
+/// Puts the few proposals in the order of their distance.
+inline void sort(Proposals& p, std::size_t count) {
+  for (std::size_t i = 1; i < count; ++i) {
+    const float nearest = p.nearest_m[i];
+    const std::uint32_t name = p.name[i];
+    std::size_t k = i;
+    for (; k > 0 && p.nearest_m[k - 1] > nearest; --k) p.nearest_m[k] = p.nearest_m[k - 1], p.name[k] = p.name[k - 1];
+    p.nearest_m[k] = nearest, p.name[k] = name;
+  }
+}
 
 class BucketGrid {
  public:
@@ -20,14 +31,15 @@ class BucketGrid {
   /// Surfaces in the bucket of an average surface. Where most of them crowd in few buckets a hierarchy is better.
   [[nodiscard]] double crowd() const { return crowd_; }
 
-  /// The buckets that some cones of one neighbourhood may reach, from the inner to the outer ones: zone k begins at
-  /// 2^k bucket widths from the centre.
+  /// The buckets that some cones of one neighbourhood may reach, from the inner to the outer ones: zone k has those
+  /// from 2^k to less than 2^(k+1) buckets away from the one in the centre, along x or y; zone 0 that one, too.
   struct Neighbourhood {
-    static constexpr int kZones = 8;
+    static constexpr std::uint32_t kZones = 5, kRings = 1u << kZones;
     Vec2 centre;
+    std::uint32_t count = 0;
     Squares buckets;
-    std::uint32_t zone[kZones + 1];  ///< zone k: buckets from zone[k] to zone[k + 1]
-    std::vector<std::uint32_t> found, zone_of;
+    std::uint32_t ring[kRings + 1];  ///< ring k: buckets from ring[k] to ring[k + 1]; all the outer ones in the last
+    std::vector<std::uint32_t> found, ring_of;
   };
   /// False when there are more buckets than are worth going through; then nothing is gathered.
   bool gather(Vec2 low, Vec2 high, Vec2 centre, Neighbourhood& out) const;
@@ -36,12 +48,11 @@ class BucketGrid {
   struct Room {
     Proposals buckets, surfaces;
   };
-  /// Asks `nearest` about every surface that may be within its limit. The wedge must lie in the neighbourhood's box.
+  /// Calls consider(surface seen from the apex, name) of every surface that may be in the wedge within limit_m() of the
+  /// asking one, which may shrink. The wedge up to there must lie in the neighbourhood's box.
+  template <typename Asking>
   void search(const std::vector<Surface>& surfaces, const Neighbourhood& n, const Wedge& wedge, Vec2 apex,
-              NearestEcho& nearest, Room& room) const;
-  /// Numbers of all surfaces that may have a point in the wedge within limit_m, ascending.
-  void collect(const Neighbourhood& n, const Wedge& wedge, Vec2 apex, double limit_m, Room& room,
-               std::vector<std::uint32_t>& numbers) const;
+              Asking& asking, Room& room) const;
 
  private:
   struct Cells {
@@ -61,5 +72,36 @@ class BucketGrid {
   std::uint32_t fullest_ = 0;
   Capsules capsules_;
 };
+
+template <typename Asking>
+void BucketGrid::search(const std::vector<Surface>& surfaces, const Neighbourhood& n, const Wedge& wedge, Vec2 apex,
+                        Asking& asking, Room& room) const {
+  const FloatWedge w = in_float(wedge, apex, asking.limit_m());
+  const double moved_m = length(apex - n.centre) + margin_m_;
+  room.surfaces.make_room(fullest_);
+  room.buckets.make_room(n.count);
+  std::uint32_t last = ~0u;
+  for (std::uint32_t zone = 0; zone < Neighbourhood::kZones; ++zone) {
+    const std::uint32_t first_ring = zone == 0 ? 0 : 1u << zone, end_ring = 2u << zone;
+    if (first_ring > 0 && (first_ring - 1) * size_m_ - moved_m > asking.limit_m()) return;
+    const std::uint32_t begin = n.ring[first_ring], end = n.ring[end_ring];
+    if (begin == end) continue;
+    const std::size_t buckets =
+        kernel_->squares(n.buckets, begin, end, w, static_cast<float>(asking.limit_m()), room.buckets);
+    for (std::size_t b = 0; b < buckets; ++b) {
+      if (room.buckets.nearest_m[b] > asking.limit_m()) continue;
+      const std::uint32_t bucket = room.buckets.name[b];
+      const std::size_t count = kernel_->capsules(capsules_, n.buckets.begin[bucket], n.buckets.end[bucket], w,
+                                                  static_cast<float>(asking.limit_m()), room.surfaces);
+      sort(room.surfaces, count);
+      for (std::size_t i = 0; i < count && room.surfaces.nearest_m[i] <= asking.limit_m(); ++i) {
+        const std::uint32_t number = room.surfaces.name[i];
+        if (number == last) continue;  // it passes through the bucket before, too
+        asking.consider(seen_from(surfaces[number], apex), name_of(0, number));
+        last = number;
+      }
+    }
+  }
+}
 
 }  // namespace evigrid::raycast

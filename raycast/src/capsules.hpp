@@ -47,10 +47,10 @@ struct FloatWedge {
 
 struct CapsuleKernel {
   std::string_view target;
-  /// Names of the capsules in [begin, end) that may have a point in the wedge within limit_m, written to `out` from
-  /// `at` on; returns where it ended.
+  /// Names of the capsules in [begin, end) that may have a point in the wedge within limit_m, written to `out`;
+  /// returns how many.
   std::size_t (*capsules)(const Capsules& c, std::uint32_t begin, std::uint32_t end, const FloatWedge& w, float limit_m,
-                          Proposals& out, std::size_t at);
+                          Proposals& out);
   /// The same for squares, by their numbers.
   std::size_t (*squares)(const Squares& s, std::uint32_t begin, std::uint32_t end, const FloatWedge& w, float limit_m,
                          Proposals& out);

@@ -16,13 +16,14 @@ using Floats = hn::ScalableTag<float>;
 using Words = hn::RebindToUnsigned<Floats>;
 
 HWY_ATTR std::size_t capsules(const Capsules& c, std::uint32_t begin, std::uint32_t end, const FloatWedge& w,
-                              float limit_m, Proposals& out, std::size_t at) {
+                              float limit_m, Proposals& out) {
   const Floats d;
   const auto px = hn::Set(d, w.x), py = hn::Set(d, w.y);
   const auto rx = hn::Set(d, w.right_x), ry = hn::Set(d, w.right_y), lx = hn::Set(d, w.left_x),
              ly = hn::Set(d, w.left_y);
   const auto margin = hn::Set(d, w.margin_m), limit = hn::Set(d, limit_m);
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  std::size_t at = 0;
   for (std::size_t k = begin; k < end; k += hn::Lanes(d)) {
     const auto ax = hn::Sub(hn::LoadU(d, &c.x0[k]), px), ay = hn::Sub(hn::LoadU(d, &c.y0[k]), py);
     const auto bx = hn::Sub(hn::LoadU(d, &c.x1[k]), px), by = hn::Sub(hn::LoadU(d, &c.y1[k]), py);

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "query.hpp"
-#include "visibility.hpp"
 
 namespace evigrid::raycast {
 namespace {
@@ -17,33 +16,22 @@ namespace {
 constexpr double kRing_m = 1;
 
 /// Asks about what one index finds; the apex is a point of the map.
+template <typename Asked>
 class Asking : public SurfaceIndex::Visitor {
  public:
-  Asking(const Frame& frame, Vec2 apex, NearestEcho& nearest)
-      : frame_(frame), apex_(frame.point_from_map(apex)), nearest_(nearest) {}
-  void visit_all(const SurfaceIndex& index, double radius_m) { index.visit_near(apex_, radius_m, *this); }
-  double visit(const Surface& surface, std::uint32_t, double radius_m) override {
-    nearest_.consider(frame_.seen(surface, apex_));
-    return std::min(radius_m, nearest_.first_m());
+  Asking(const SurfaceIndex& index, const Frame& frame, Vec2 apex, Asked& asked)
+      : index_(index), frame_(frame), apex_(frame.point_from_map(apex)), asked_(asked) {}
+  void ask() { index_.visit_near(apex_, asked_.limit_m(), *this); }
+  double visit(const Surface& surface, std::uint32_t i, double radius_m) override {
+    asked_.consider(frame_.seen(surface, apex_), index_.name(i));
+    return std::min(radius_m, asked_.limit_m());
   }
 
  private:
+  const SurfaceIndex& index_;
   const Frame& frame_;
   Vec2 apex_;
-  NearestEcho& nearest_;
-};
-
-/// Notes the numbers of what one index finds.
-class Collecting : public SurfaceIndex::Visitor {
- public:
-  explicit Collecting(std::vector<std::uint32_t>& numbers) : numbers_(numbers) {}
-  double visit(const Surface&, std::uint32_t i, double radius_m) override {
-    numbers_.push_back(i);
-    return radius_m;
-  }
-
- private:
-  std::vector<std::uint32_t>& numbers_;
+  Asked& asked_;
 };
 
 struct Extent {
@@ -93,9 +81,11 @@ void ConeCaster::gather(std::span<const ConeQuery> queries) {
   Extent box{centre, centre};
   double farthest_m = 0;
   room_.wedges.clear();
+  HalfOpening half(queries[0].aperture_rad);
   for (const ConeQuery& q : queries) {
     const Vec2 apex{q.x_m, q.y_m};
-    const Wedge& wedge = room_.wedges.emplace_back(make_wedge(q.yaw_rad, q.aperture_rad));
+    if (q.aperture_rad != half.aperture_rad) half = HalfOpening(q.aperture_rad);
+    const Wedge& wedge = room_.wedges.emplace_back(make_wedge(q.yaw_rad, half));
     const double reach_m = q.max_range_m + kContact_m;
     if (caster_.buckets) add_wedge(box, apex, wedge, reach_m);
     farthest_m = std::max(farthest_m, length(apex - centre) + reach_m);
@@ -112,54 +102,27 @@ void ConeCaster::gather(std::span<const ConeQuery> queries) {
 Echo ConeCaster::cone(const ConeQuery& q, const Wedge& wedge) {
   const Vec2 apex{q.x_m, q.y_m};
   NearestEcho nearest(wedge, q.max_range_m);
-  if (buckets_)
-    caster_.buckets->search(caster_.world.surfaces(), room_.around, wedge, apex, nearest, room_.search);
-  else
-    Asking({}, apex, nearest).visit_all(caster_.world, q.max_range_m + kContact_m);
-  ask_movers(apex, wedge, nearest);
+  ask_all(apex, wedge, nearest);
   if (nearest.first_m() > q.max_range_m + kContact_m) return {};
   // A silent surface at the same distance might be the one in front: that is for the exact solution.
   if (nearest.echo_m + kContact_m < nearest.silent_m || nearest.echo_m == 0) return echo_at(nearest.echo_m, q);
-  return echo_at(nearest_visible_m(q, wedge), q);
+  VisibleEcho& visible = room_.visible;
+  visible.begin(wedge, q.max_range_m);
+  ask_all(apex, wedge, visible);
+  return echo_at(visible.solve(), q);
 }
 
-void ConeCaster::ask_movers(Vec2 apex, const Wedge& wedge, NearestEcho& nearest) {
+template <typename Asked>
+void ConeCaster::ask_all(Vec2 apex, const Wedge& wedge, Asked& asked) {
+  if (buckets_)
+    caster_.buckets->search(caster_.world.surfaces(), room_.around, wedge, apex, asked, room_.search);
+  else
+    Asking(caster_.world, {}, apex, asked).ask();
   for (const Near& mover : room_.movers) {
-    const double limit_m = nearest.limit_m();
-    if (!may_reach(mover.centre - apex, mover.index->reach_m(), limit_m, &wedge)) continue;
+    if (!may_reach(mover.centre - apex, mover.index->reach_m(), asked.limit_m(), &wedge)) continue;
     const Frame frame(placements_[mover.which]);
-    Asking(frame, apex, nearest).visit_all(*mover.index, limit_m);
+    Asking(*mover.index, frame, apex, asked).ask();
   }
-}
-
-double ConeCaster::nearest_visible_m(const ConeQuery& q, const Wedge& wedge) {
-  const Vec2 apex{q.x_m, q.y_m};
-  const double reach_m = q.max_range_m + kContact_m;
-  std::vector<std::uint32_t>& numbers = room_.numbers;
-  numbers.clear();
-  room_.surfaces.clear();
-  const auto take = [&](const SurfaceIndex& index, const Frame& frame, Vec2 from) {
-    for (std::uint32_t i : numbers) room_.surfaces.push_back(frame.seen(index.surface(i), from));
-  };
-  if (buckets_) {
-    caster_.buckets->collect(room_.around, wedge, apex, reach_m, room_.search, numbers);
-  } else {
-    Collecting all(numbers);
-    caster_.world.visit_near(apex, reach_m, all);
-    std::sort(numbers.begin(), numbers.end());  // whatever order the tree gives
-  }
-  take(caster_.world, {}, apex);
-  for (const Near& mover : room_.movers) {
-    if (!may_reach(mover.centre - apex, mover.index->reach_m(), reach_m, &wedge)) continue;
-    const Frame frame(placements_[mover.which]);
-    const Vec2 from = frame.point_from_map(apex);
-    numbers.clear();
-    Collecting all(numbers);
-    mover.index->visit_near(from, reach_m, all);
-    std::sort(numbers.begin(), numbers.end());
-    take(*mover.index, frame, from);
-  }
-  return nearest_visible_echo(room_.surfaces, wedge, q.max_range_m);
 }
 
 }  // namespace evigrid::raycast

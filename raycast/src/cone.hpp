@@ -2,7 +2,7 @@
 // Casting cones, one neighbourhood after the other: the sensors of a ring stand within a few decimetres, so what is
 // around them is gathered once and clipped by each.
 #pragma once
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -10,6 +10,7 @@
 #include "caster.hpp"
 #include "evigrid/raycast/cone.hpp"
 #include "nearest_echo.hpp"
+#include "visibility.hpp"
 
 namespace evigrid::raycast {
 
@@ -33,15 +34,15 @@ class ConeCaster {
   };
   void gather(std::span<const ConeQuery> queries);
   [[nodiscard]] Echo cone(const ConeQuery& q, const Wedge& wedge);
-  void ask_movers(Vec2 apex, const Wedge& wedge, NearestEcho& nearest);
-  [[nodiscard]] double nearest_visible_m(const ConeQuery& q, const Wedge& wedge);
+  /// Asks about every surface of the world and of the movers that may be in the wedge within the asked one's limit.
+  template <typename Asked>
+  void ask_all(Vec2 apex, const Wedge& wedge, Asked& asked);
 
   /// Room that a thread keeps, so that no cone asks for memory.
   struct Room {
     BucketGrid::Neighbourhood around;
     BucketGrid::Room search;
-    std::vector<std::uint32_t> numbers;
-    std::vector<Surface> surfaces;
+    VisibleEcho visible;
     std::vector<Near> movers;
     std::vector<Wedge> wedges;
   };

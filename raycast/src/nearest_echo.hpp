@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "rays.hpp"
 #include "reject.hpp"
+#include "segment.hpp"
 #include "surface.hpp"
 #include "wedge.hpp"
 
@@ -16,12 +18,14 @@ class NearestEcho {
   NearestEcho(const Wedge& wedge, double max_range_m) : wedge_(wedge), max_range_m_(max_range_m) {}
 
   /// `s`: seen from the apex.
-  void consider(const Surface& s) {
+  void consider(const Surface& s, SurfaceName) {
     if (surely_outside(s, wedge_, limit_m())) return;
-    const auto point = nearest_in_wedge(s, wedge_);
+    const auto point =
+        s.kind == Surface::Kind::segment ? nearest_of_segment(s.a, s.b, wedge_) : nearest_in_wedge(s, wedge_);
     if (!point) return;
-    double& nearest = gives_echo(s, *point, max_range_m_) ? echo_m : silent_m;
-    nearest = std::min(nearest, length(*point));
+    const double range_m = length(*point);
+    double& nearest = range_m <= heard_m(s, max_range_m_) && within_critical(s, *point) ? echo_m : silent_m;
+    nearest = std::min(nearest, range_m);
   }
   /// What is farther away than this need not be considered: a silent surface at the distance of the echo must.
   [[nodiscard]] double limit_m() const { return std::min(first_m(), max_range_m_ + kContact_m) + 4 * kContact_m; }

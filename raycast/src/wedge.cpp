@@ -5,57 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "segment.hpp"
 #include "tolerance.hpp"
 
 namespace evigrid::raycast {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Rounding of a cross product of two directions.
-constexpr double kRounding = 1e-15;
-
-/// Part [low, high] of a segment a + u·(b − a), u ∈ [0, 1].
-struct Range {
-  double low = 0, high = 1;
-  [[nodiscard]] bool empty() const { return low > high; }
-};
-
-/// Keeps the u with f0 + u·df >= 0.
-void keep_non_negative(Range& r, double f0, double df) {
-  if (df > 0)
-    r.low = std::max(r.low, -f0 / df);
-  else if (df < 0)
-    r.high = std::min(r.high, -f0 / df);
-  else if (f0 < 0)
-    r.high = -1;
-}
-
-Range clip(const Surface& s, Vec2 edge, const Wedge& w) {
-  Range r;
-  keep_non_negative(r, cross(w.arc.right, s.a), cross(w.arc.right, edge));
-  keep_non_negative(r, cross(s.a, w.arc.left), cross(edge, w.arc.left));
-  keep_non_negative(r, dot(w.axis, s.a), dot(w.axis, edge));  // a cone of opening 0 is not a line
-  return r;
-}
-
-/// Parameter of the foot of the perpendicular, and the distance of the line.
-struct Foot {
-  double u, height;
-};
-Foot foot(const Surface& s, Vec2 edge) {
-  const double square = dot(edge, edge);
-  return {-dot(s.a, edge) / square, std::abs(cross(s.a, edge)) / std::sqrt(square)};
-}
 
 bool touches_origin(const Surface& s) {
-  if (s.kind == Surface::Kind::circle) return std::abs(length(s.a) - s.radius) <= kContact_m;
-  const Vec2 edge = s.b - s.a;
-  const double square = dot(edge, edge);
-  const double u = square > 0 ? std::clamp(-dot(s.a, edge) / square, 0.0, 1.0) : 0;
-  return length(s.a + u * edge) <= kContact_m;
+  return s.kind == Surface::Kind::circle ? std::abs(length(s.a) - s.radius) <= kContact_m
+                                         : segment_touches_origin(s.a, s.b - s.a);
 }
-
-bool is_point(Vec2 edge) { return length(edge) <= kContact_m; }
 
 Vec2 clamped(const Arc& arc, Vec2 u) {
   if (contains(arc, u)) return u;
@@ -145,10 +106,6 @@ Piece point_piece(Vec2 p) { return {{unit(p), unit(p)}, p}; }
 
 }  // namespace
 
-bool contains(const Arc& arc, Vec2 u) {
-  return cross(arc.right, u) >= -kRounding && cross(u, arc.left) >= -kRounding && dot(u, arc.right + arc.left) >= 0;
-}
-
 std::optional<Arc> intersection(const Arc& a, const Arc& b) {
   Arc common;
   if (contains(b, a.right))
@@ -166,29 +123,26 @@ std::optional<Arc> intersection(const Arc& a, const Arc& b) {
   return common;
 }
 
-Wedge make_wedge(double yaw_rad, double aperture_rad) {
+HalfOpening::HalfOpening(double opening_rad) : aperture_rad(opening_rad) {
+  const double half = opening_rad / 2 + kEdgeSlack_rad;
+  cosine = std::cos(half), sine = std::sin(half);
+}
+
+Wedge make_wedge(double yaw_rad, const HalfOpening& half) {
   const Vec2 axis{std::cos(yaw_rad), std::sin(yaw_rad)};
-  const double half = aperture_rad / 2 + kEdgeSlack_rad;
-  const double c = std::cos(half), s = std::sin(half);
-  return {axis, {rotated(axis, c, -s), rotated(axis, c, s)}};
+  return {axis, {rotated(axis, half.cosine, -half.sine), rotated(axis, half.cosine, half.sine)}};
 }
 
 std::optional<Vec2> nearest_in_wedge(const Surface& s, const Wedge& w) {
+  if (s.kind == Surface::Kind::segment) return nearest_of_segment(s.a, s.b, w);
   if (touches_origin(s)) return Vec2{0, 0};
-  if (s.kind == Surface::Kind::circle) {
-    const Pieces whole = circle_pieces(s, w, 1, kInfinity);
-    std::optional<Vec2> best;
-    for (int i = 0; i < whole.count; ++i) {
-      const Vec2 p = whole.piece[i].nearest;
-      if (!best || dot(p, p) < dot(*best, *best)) best = p;
-    }
-    return best;
+  const Pieces whole = circle_pieces(s, w, 1, kInfinity);
+  std::optional<Vec2> best;
+  for (int i = 0; i < whole.count; ++i) {
+    const Vec2 p = whole.piece[i].nearest;
+    if (!best || dot(p, p) < dot(*best, *best)) best = p;
   }
-  const Vec2 edge = s.b - s.a;
-  if (is_point(edge)) return contains(w.arc, unit(s.a)) ? std::optional(s.a) : std::nullopt;
-  const Range r = clip(s, edge, w);
-  if (r.empty()) return std::nullopt;
-  return s.a + std::clamp(foot(s, edge).u, r.low, r.high) * edge;
+  return best;
 }
 
 bool within_critical(const Surface& s, Vec2 p) {
@@ -215,8 +169,8 @@ Pieces echo_pieces(const Surface& s, const Wedge& w, double max_range_m) {
     one.piece[0] = point_piece(s.a);
     return contains(w.arc, unit(s.a)) && length(s.a) <= heard ? one : none;
   }
-  Range r = clip(s, edge, w);
-  const Foot f = foot(s, edge);
+  Range r = clip(s.a, edge, w);
+  const Foot f = foot(s.a, edge);
   const auto keep_around_foot = [&](double reach) {
     r.low = std::max(r.low, f.u - reach);
     r.high = std::min(r.high, f.u + reach);
@@ -248,7 +202,7 @@ double hit_distance(const Surface& s, Vec2 u) {
   if (dot(u, right) <= 0 && dot(u, left) <= 0) return kInfinity;
   const double facing = cross(u, edge);
   if (facing <= kEdgeOn * length(edge)) return std::min(to_right, to_left);  // seen edge-on, or a point
-  return std::max(foot(s, edge).height, std::min(cross(right, edge) / facing, longest));
+  return std::max(foot(s.a, edge).height, std::min(cross(right, edge) / facing, longest));
 }
 
 }  // namespace evigrid::raycast

@@ -15,7 +15,11 @@ struct Arc {
   Vec2 right, left;
 };
 
-bool contains(const Arc& arc, Vec2 direction);
+/// Rounding of a cross product of two directions.
+inline constexpr double kRounding = 1e-15;
+inline bool contains(const Arc& arc, Vec2 u) {
+  return cross(arc.right, u) >= -kRounding && cross(u, arc.left) >= -kRounding && dot(u, arc.right + arc.left) >= 0;
+}
 std::optional<Arc> intersection(const Arc& a, const Arc& b);
 /// Cross product of the two ends: the sine of the span.
 inline double sine_of_span(const Arc& arc) { return cross(arc.right, arc.left); }
@@ -25,7 +29,13 @@ struct Wedge {
   Vec2 axis;
   Arc arc;
 };
-Wedge make_wedge(double yaw_rad, double aperture_rad);
+/// Cosine and sine of half the opening, with the slack: the cones of a ring share them.
+struct HalfOpening {
+  explicit HalfOpening(double aperture_rad);
+  double aperture_rad, cosine, sine;
+};
+Wedge make_wedge(double yaw_rad, const HalfOpening& half);
+inline Wedge make_wedge(double yaw_rad, double aperture_rad) { return make_wedge(yaw_rad, HalfOpening(aperture_rad)); }
 
 /// Nearest point in the wedge whatever the incidence; contact with the apex is the point (0, 0).
 std::optional<Vec2> nearest_in_wedge(const Surface& s, const Wedge& wedge);
