@@ -9,7 +9,7 @@ namespace evigrid::raycast {
 namespace {
 
 /// Surfaces to a bucket, on average, that the size is chosen for.
-static const double kPerBucket = std::getenv("PB") ? std::atof(std::getenv("PB")) : 6;
+constexpr double kPerBucket = 16;
 /// At most this many buckets along a side.
 constexpr double kMostAlong = 1024;
 /// A neighbourhood of more buckets than this is not gathered.
