@@ -157,11 +157,7 @@ void add(const std::string& label, const Source& source) {
   RegisterBenchmark(name("cast_50000_rays").c_str(), [=](benchmark::State& s) { range_error(s, source); })->Unit(unit);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+const bool registered = [] {
   add("generated_3000", generated(3000));
   const std::filesystem::path maps = std::filesystem::path(EVIGRID_DATA_DIR) / "maps";
   const std::filesystem::path willow = maps / "ros-willow/willow-2010-02-18-0.10.yaml";
@@ -170,6 +166,7 @@ int main(int argc, char** argv) {
     const std::filesystem::path file = maps / "ipa-rooms" / (std::string(name) + ".png");
     if (std::filesystem::exists(file)) add(name, from_file(file, {.resolution_m = 0.05}));
   }
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-}
+  return true;
+}();
+
+}  // namespace

@@ -30,6 +30,7 @@ void fuse_tile(const Batch& b, std::size_t index) {
   kernels::TileArgs args;
   args.cells = w.tile->cells.get();
   args.conflict_plane = b.p.params.keep_conflict;
+  BlockMask reached = 0;
   for (const std::uint32_t i : w.footprints) {
     const Footprint& f = b.footprints[i];
     const auto at = [&](const auto& q) {  // the tile as seen from the sensor
@@ -43,15 +44,18 @@ void fuse_tile(const Batch& b, std::size_t index) {
       args.micro_count = fan_micros.edge_count;
       args.empty_micros = fan_micros.empty;
       args.empty_count = fan_micros.empty_count;
+      reached |= blocks_of(args.micros, args.micro_count) | blocks_of(args.empty_micros, args.empty_count);
       b.p.table.fuse_fan[rule](args, f.fan->reading, b.stats[index]);
     } else {
       at(f.cone);
       select_micros(f.cone, args.x0, args.y0, micros);
       args.micros = micros.micro.data();
       args.micro_count = micros.count;
+      reached |= blocks_of(args.micros, args.micro_count);
       b.p.table.fuse_cone[rule][f.cone_model](args, f.cone, b.stats[index]);
     }
   }
+  if (b.stats[index].cells > 0) w.tile->change->mark(reached, b.p.changes.next());
 }
 
 /// Compiling is independent of order. A single scan's few readings are not worth waking other threads.
@@ -85,6 +89,7 @@ Report integrate(const Pipeline& p, std::span<const Scan> scans) {
   compile_all(footprints, p.executor);
   std::vector<TileWork> work = bin(footprints, p.table, p.store);
   std::vector<kernels::Stats> stats(work.size());
+  for (const TileWork& w : work) p.changes.enroll(*w.tile);
   Batch batch{p, footprints, work, stats};
   p.executor.run(
       static_cast<std::int64_t>(work.size()),
@@ -100,10 +105,13 @@ Report integrate(const Pipeline& p, std::span<const Scan> scans) {
     r.total_conflicts = stats[i].total_conflicts;
     r.max_conflict = stats[i].max_conflict;
     const TileIndex at = work[i].tile->index;
-    if (stats[i].cells > 0)
+    if (stats[i].cells > 0) {
       r.touched = {at.x * kernels::kTileSide, at.y * kernels::kTileSide, kernels::kTileSide, kernels::kTileSide};
+      p.changes.moved(*work[i].tile->change);
+    }
     report += r;
   }
+  if (report.cells_updated > 0) p.changes.commit();
   return report;
 }
 

@@ -25,6 +25,8 @@ inline double offset(std::int64_t t, std::int64_t i0, float f) noexcept {
   return static_cast<double>(t * kernels::kTileSide - i0) - static_cast<double>(f);
 }
 
+struct TileChange;
+
 struct FreeAligned {
   void operator()(float*) const noexcept;
 };
@@ -32,6 +34,7 @@ struct FreeAligned {
 struct Tile {
   TileIndex index;
   std::unique_ptr<float[], FreeAligned> cells;
+  TileChange* change = nullptr;  // change_log.hpp
 };
 
 class TileStore {
