@@ -122,37 +122,43 @@ inline const raycast::Scene& scene(int which, raycast::Index index) {
   return *s;
 }
 
-/// All straight walls as quads two metres high; circles as regular polygons of 32 sides.
+/// All straight walls; circles as regular polygons of 32 sides.
+inline std::vector<std::pair<Point, Point>> lines_of(const Place& p) {
+  std::vector<std::pair<Point, Point>> lines;
+  const auto closed = [&](const std::vector<Point>& v) {
+    for (std::size_t i = 0; i < v.size(); ++i) lines.emplace_back(v[i], v[(i + 1) % v.size()]);
+  };
+  const auto add = [&](const raycast::World& w, const raycast::Placement& at) {
+    for (const auto& wall : w.walls) lines.emplace_back(wall.from, wall.to);
+    for (const auto& polygon : w.polygons) closed(polygon.vertices);
+    for (const auto& box : w.boxes) {
+      const double c = std::cos(box.yaw_rad) / 2, s = std::sin(box.yaw_rad) / 2, l = box.length_m, h = box.width_m;
+      const Point m = box.centre;
+      closed({{m.x_m - c * l + s * h, m.y_m - s * l - c * h},
+              {m.x_m + c * l + s * h, m.y_m + s * l - c * h},
+              {m.x_m + c * l - s * h, m.y_m + s * l + c * h},
+              {m.x_m - c * l - s * h, m.y_m - s * l + c * h}});
+    }
+    for (const auto& circle : w.circles) {
+      std::vector<Point> v;
+      for (int i = 0; i < 32; ++i)
+        v.push_back({at.x_m + circle.centre.x_m + circle.radius_m * std::cos(i * std::numbers::pi / 16),
+                     at.y_m + circle.centre.y_m + circle.radius_m * std::sin(i * std::numbers::pi / 16)});
+      closed(v);
+    }
+  };
+  add(p.world, {});
+  for (std::size_t i = 0; i < p.movers.size(); ++i) add(p.movers[i], p.placements[i]);
+  return lines;
+}
+
+/// They as quads two metres high.
 struct Quads {
   RTCDevice device = rtcNewDevice(nullptr);
   RTCScene scene = rtcNewScene(device);
 
   explicit Quads(const Place& p) {
-    std::vector<std::pair<Point, Point>> lines;
-    const auto closed = [&](const std::vector<Point>& v) {
-      for (std::size_t i = 0; i < v.size(); ++i) lines.emplace_back(v[i], v[(i + 1) % v.size()]);
-    };
-    const auto add = [&](const raycast::World& w, const raycast::Placement& at) {
-      for (const auto& wall : w.walls) lines.emplace_back(wall.from, wall.to);
-      for (const auto& polygon : w.polygons) closed(polygon.vertices);
-      for (const auto& box : w.boxes) {
-        const double c = std::cos(box.yaw_rad) / 2, s = std::sin(box.yaw_rad) / 2, l = box.length_m, h = box.width_m;
-        const Point m = box.centre;
-        closed({{m.x_m - c * l + s * h, m.y_m - s * l - c * h},
-                {m.x_m + c * l + s * h, m.y_m + s * l - c * h},
-                {m.x_m + c * l - s * h, m.y_m + s * l + c * h},
-                {m.x_m - c * l - s * h, m.y_m - s * l + c * h}});
-      }
-      for (const auto& circle : w.circles) {
-        std::vector<Point> v;
-        for (int i = 0; i < 32; ++i)
-          v.push_back({at.x_m + circle.centre.x_m + circle.radius_m * std::cos(i * std::numbers::pi / 16),
-                       at.y_m + circle.centre.y_m + circle.radius_m * std::sin(i * std::numbers::pi / 16)});
-        closed(v);
-      }
-    };
-    add(p.world, {});
-    for (std::size_t i = 0; i < p.movers.size(); ++i) add(p.movers[i], p.placements[i]);
+    const std::vector<std::pair<Point, Point>> lines = lines_of(p);
     RTCGeometry quads = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
     auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                           3 * sizeof(float), 4 * lines.size()));

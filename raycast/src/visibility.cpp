@@ -55,6 +55,8 @@ void VisibleEcho::sort() {
 
 double VisibleEcho::solve() {
   sort();
+  met_.clear();
+  for (const Seen& s : seen_) met_.emplace_back(s.surface);
   for (std::size_t i = 0; i < seen_.size() && seen_[i].nearest_m < best_m_; ++i) {
     const Pieces pieces = echo_pieces(seen_[i].surface, wedge_, max_range_m_);
     for (int k = 0; k < pieces.count; ++k) try_piece(i, pieces.piece[k]);
@@ -86,7 +88,7 @@ void VisibleEcho::try_piece(std::size_t i, const Piece& piece) {
   candidates_.clear();
   const auto add = [&](Vec2 u) {
     if (!contains(piece.arc, u)) return;
-    const double range = hit_distance(surface, u);
+    const double range = met_[i].distance(u);
     if (range < best_m_) candidates_.push_back({range, u});
   };
   add(piece.arc.right);
@@ -107,17 +109,17 @@ void VisibleEcho::try_piece(std::size_t i, const Piece& piece) {
 }
 
 /// Whether the piece is met first just beside `u`, on either side of it that belongs to the piece.
-bool VisibleEcho::visible(std::size_t i, const Arc& arc, Vec2 u) const {
+bool VisibleEcho::visible(std::size_t i, const Arc& arc, Vec2 u) {
   if (sine_of_span(arc) < 4 * kBeside_rad) return met_first(i, unit(arc.right + arc.left));
   const Vec2 right = nudged(u, -kBeside_rad), left = nudged(u, kBeside_rad);
   return (contains(arc, right) && met_first(i, right)) || (contains(arc, left) && met_first(i, left));
 }
 
-bool VisibleEcho::met_first(std::size_t i, Vec2 u) const {
-  const double range = hit_distance(seen_[i].surface, u);
+bool VisibleEcho::met_first(std::size_t i, Vec2 u) {
+  const double range = met_[i].distance(u);
   const double hidden_below = range - kTie * (1 + range);
   for (std::size_t j = 0; j < seen_.size() && seen_[j].nearest_m < hidden_below; ++j)
-    if (j != i && hit_distance(seen_[j].surface, u) < hidden_below) return false;
+    if (j != i && met_[j].distance(u) < hidden_below) return false;
   return true;
 }
 

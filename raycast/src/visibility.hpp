@@ -38,13 +38,14 @@ class VisibleEcho {
   void sort();
   void add_events(const Surface& s);
   void try_piece(std::size_t i, const Piece& piece);
-  [[nodiscard]] bool visible(std::size_t i, const Arc& arc, Vec2 u) const;
-  [[nodiscard]] bool met_first(std::size_t i, Vec2 u) const;
+  [[nodiscard]] bool visible(std::size_t i, const Arc& arc, Vec2 u);
+  [[nodiscard]] bool met_first(std::size_t i, Vec2 u);
 
   Wedge wedge_;
   Horizon horizon_;
   double best_m_ = 0, max_range_m_ = 0;
   std::vector<Seen> seen_;  ///< sorted: nearest first
+  std::vector<Met> met_;    ///< the same
   std::vector<Vec2> events_;
   std::vector<Candidate> candidates_;
 };

@@ -186,23 +186,35 @@ Pieces echo_pieces(const Surface& s, const Wedge& w, double max_range_m) {
   return one;
 }
 
-double hit_distance(const Surface& s, Vec2 u) {
-  const double slack = kHidingSlack_rad;
+Met::Met(const Surface& s) : kind_(s.kind), a_(s.a), radius_(s.radius) {
   if (s.kind == Surface::Kind::circle) {
-    const double along = dot(u, s.a), across = cross(u, s.a), distance = length(s.a);
-    const double half_chord = std::sqrt(std::max(0.0, s.radius * s.radius - across * across));
-    if (distance <= s.radius) return along + half_chord;
-    if (along <= 0 || std::abs(across) > s.radius + slack * distance) return kInfinity;
-    return along - half_chord;
+    centre_m_ = length(s.a);
+    return;
   }
   const bool swap = cross(s.a, s.b) < 0;
-  const Vec2 right = swap ? s.b : s.a, left = swap ? s.a : s.b, edge = left - right;
-  const double to_right = length(right), to_left = length(left), longest = std::max(to_right, to_left);
-  if (cross(right, u) < -slack * to_right || cross(u, left) < -slack * to_left) return kInfinity;
-  if (dot(u, right) <= 0 && dot(u, left) <= 0) return kInfinity;
-  const double facing = cross(u, edge);
-  if (facing <= kEdgeOn * length(edge)) return std::min(to_right, to_left);  // seen edge-on, or a point
-  return std::max(foot(s.a, edge).height, std::min(cross(right, edge) / facing, longest));
+  right_ = swap ? s.b : s.a, left_ = swap ? s.a : s.b, edge_ = left_ - right_;
+  to_right_ = length(right_), to_left_ = length(left_);
+}
+
+double Met::distance(Vec2 u) {
+  const double slack = kHidingSlack_rad;
+  if (kind_ == Surface::Kind::circle) {
+    const double along = dot(u, a_), across = cross(u, a_);
+    const double half_chord = std::sqrt(std::max(0.0, radius_ * radius_ - across * across));
+    if (centre_m_ <= radius_) return along + half_chord;
+    if (along <= 0 || std::abs(across) > radius_ + slack * centre_m_) return kInfinity;
+    return along - half_chord;
+  }
+  if (cross(right_, u) < -slack * to_right_ || cross(u, left_) < -slack * to_left_) return kInfinity;
+  if (dot(u, right_) <= 0 && dot(u, left_) <= 0) return kInfinity;
+  if (edge_on_ < 0) {
+    edge_on_ = kEdgeOn * length(edge_);
+    height_ = foot(a_, edge_).height;
+    area_ = cross(right_, edge_);
+  }
+  const double facing = cross(u, edge_);
+  if (facing <= edge_on_) return std::min(to_right_, to_left_);  // seen edge-on, or a point
+  return std::max(height_, std::min(area_ / facing, std::max(to_right_, to_left_)));
 }
 
 }  // namespace evigrid::raycast

@@ -58,8 +58,22 @@ struct Pieces {
 };
 Pieces echo_pieces(const Surface& s, const Wedge& wedge, double max_range_m);
 
-/// Distance at which a ray from the origin meets the surface first; +∞ when it misses. Hides kHidingSlack_rad beyond
-/// the ends.
-double hit_distance(const Surface& s, Vec2 direction);
+/// A surface as rays from the origin meet it, with what does not depend on the ray worked out once, and only when
+/// asked.
+class Met {
+ public:
+  explicit Met(const Surface& s);
+  /// Distance at which the ray meets it first; +∞ when it misses. Hides kHidingSlack_rad beyond the ends.
+  [[nodiscard]] double distance(Vec2 direction);
+
+ private:
+  Surface::Kind kind_;
+  Vec2 a_;  ///< as the surface has it; of a circle, its centre
+  Vec2 right_, left_, edge_;
+  double to_right_ = 0, to_left_ = 0, area_ = 0, height_ = 0;
+  double edge_on_ = -1;  ///< < 0: this and height_ are not known yet
+  double radius_ = 0, centre_m_ = 0;
+};
+inline double hit_distance(const Surface& s, Vec2 direction) { return Met(s).distance(direction); }
 
 }  // namespace evigrid::raycast
