@@ -37,7 +37,7 @@ Json facts() {
   out["compiler"] = EVIGRID_COMPILER;
   out["kernels_available"] = kernels;
   out["kernel_chosen"] = resolve_kernel_name(Kernel::automatic);
-  out["executors"] = {"serial", "tbb", "openmp"};
+  out["executors"] = {"serial", "tbb", "openmp", "spin"};
   out["threads"] = make_tbb_executor(0)->concurrency();
   out["hardware_threads"] = std::thread::hardware_concurrency();
   out["rules"] = rules;

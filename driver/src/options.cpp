@@ -84,7 +84,7 @@ std::shared_ptr<Executor> parse_executor(const std::string& text, int threads) {
     return {held, held->executor.get()};
   }
   if (std::shared_ptr<Executor> executor = make_executor(text, threads)) return executor;
-  throw InputError(fmt::format("--executor: '{}' is unknown; known: serial, tbb, openmp", text));
+  throw InputError(fmt::format("--executor: '{}' is unknown; known: serial, tbb, openmp, spin", text));
 }
 
 std::string describe_outputs() {
@@ -116,7 +116,11 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
                      "Shafer discount in (0, 1] (default: 1 for lasers, 0.9 for sonars)");
   command.add_flag("--clear-no-return", o.clear_no_return, "lasers: a beam without return clears up to --max-range");
   command.add_option("--threads", o.threads, "worker threads; 0: as many as the machine has")->capture_default_str();
-  command.add_option("--executor", o.executor, "serial, tbb or openmp; the map is the same")->capture_default_str();
+  command
+      .add_option("--executor", o.executor,
+                  "serial, tbb, openmp or spin; the map is the same. spin: threads\nthat look for work for 20 ms "
+                  "before they sleep, for single scans at 50 Hz or more")
+      ->capture_default_str();
   command.add_option("--kernel", o.kernel, "auto, scalar, avx2 or avx512; the map is the same")->capture_default_str();
   command.add_option("--json", o.json, "also write report.json to this file; - for standard output");
   command.add_option("--layers", o.layers,

@@ -30,6 +30,7 @@ void fuse_tile(const Batch& b, std::size_t index) {
   kernels::TileArgs args;
   args.cells = w.tile->cells.get();
   args.conflict_plane = b.p.params.keep_conflict;
+  args.fan = &fan_micros;
   BlockMask reached = 0;
   for (const std::uint32_t i : w.footprints) {
     const Footprint& f = b.footprints[i];
@@ -40,11 +41,8 @@ void fuse_tile(const Batch& b, std::size_t index) {
     if (f.fan) {
       at(f.fan->reading);
       b.p.table.select_fan(f.fan->reading, args.x0, args.y0, fan_micros);
-      args.micros = fan_micros.edge;
-      args.micro_count = fan_micros.edge_count;
-      args.empty_micros = fan_micros.empty;
-      args.empty_count = fan_micros.empty_count;
-      reached |= blocks_of(args.micros, args.micro_count) | blocks_of(args.empty_micros, args.empty_count);
+      reached |= blocks_of(fan_micros.empty, fan_micros.empty_count) | blocks_of(fan_micros.near, fan_micros.near_count) |
+                 blocks_of(fan_micros.edge, fan_micros.edge_count - fan_micros.near_count);
       b.p.table.fuse_fan[rule](args, f.fan->reading, b.stats[index]);
     } else {
       at(f.cone);
@@ -59,21 +57,25 @@ void fuse_tile(const Batch& b, std::size_t index) {
 }
 
 /// Compiling is independent of order. A single scan's few readings are not worth waking other threads.
-void compile_all(std::vector<Footprint>& footprints, Executor& executor) {
+void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
   constexpr std::size_t kChunk = 16, kAlone = 4 * kChunk;
   const std::size_t n = footprints.size();
   if (n <= kAlone) {
-    for (Footprint& f : footprints) compile(f);
+    for (Footprint& f : footprints) compile(f, p.table);
     return;
   }
-  executor.run(
+  struct All {
+    std::vector<Footprint>& footprints;
+    const kernels::KernelTable& table;
+  } all_of{footprints, p.table};
+  p.executor.run(
       static_cast<std::int64_t>((n + kChunk - 1) / kChunk),
       [](void* context, std::int64_t chunk, int) {
-        auto& all = *static_cast<std::vector<Footprint>*>(context);
+        const auto& [all, table] = *static_cast<All*>(context);
         const std::size_t first = static_cast<std::size_t>(chunk) * kChunk;
-        for (std::size_t i = first; i < std::min(first + kChunk, all.size()); ++i) compile(all[i]);
+        for (std::size_t i = first; i < std::min(first + kChunk, all.size()); ++i) compile(all[i], table);
       },
-      &footprints);
+      &all_of);
 }
 
 }  // namespace
@@ -86,7 +88,7 @@ Report integrate(const Pipeline& p, std::span<const Scan> scans) {
     p.last_stamp_ns = scan.stamp_ns;
     gate_scan(scan, p.sensors, p.params.cell_m, footprints, report);
   }
-  compile_all(footprints, p.executor);
+  compile_all(footprints, p);
   std::vector<TileWork> work = bin(footprints, p.table, p.store);
   std::vector<kernels::Stats> stats(work.size());
   for (const TileWork& w : work) p.changes.enroll(*w.tile);

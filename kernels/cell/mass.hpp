@@ -2,7 +2,7 @@
 // One cell and one source of evidence on the frame {empty, occupied}; V is one number (lane_*.hpp). Letters as in
 // docs/maths.md: the cell is (a, b, u), the source (x, y, v) with its paradoxical mass z. A source may be unnormalised:
 // s is the sum of its masses, and every rule is homogeneous in the source, so that the one division at the end does for
-// model and rule together.
+// model and rule together. Copies are made mass by mass: copied as a whole, gcc 12 keeps them on the stack.
 #pragma once
 #include <type_traits>
 
@@ -72,7 +72,7 @@ EVIGRID_FN Cell<V> settle(const Cell<V>& c) {
     const V zero(0.0f), least(State::kMassFloor);
     return {select(c.a >= least, c.a, zero), select(c.b >= least, c.b, zero), max_of(c.u, V(State::kUnknownFloor))};
   } else {
-    return c;
+    return {c.a, c.b, c.u};
   }
 }
 
@@ -121,7 +121,7 @@ EVIGRID_FN Source<V> give_back(const Source<V>& m) {
 
 template <class V>
 EVIGRID_FN PlainSource<V> give_back(const PlainSource<V>& m) {
-  return m;
+  return {m.x, m.y, m.v};
 }
 
 /// Rules without a place for the paradoxical mass drop it.
@@ -131,7 +131,7 @@ EVIGRID_FN Source<V> drop_paradox(const Source<V>& m) {
 }
 template <class V>
 EVIGRID_FN PlainSource<V> drop_paradox(const PlainSource<V>& m) {
-  return m;
+  return {m.x, m.y, m.v};
 }
 
 EVIGRID_CELL_END

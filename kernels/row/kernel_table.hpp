@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "kernels/row/reading.hpp"
+#include "kernels/row/compile_reading.hpp"
 
 namespace evigrid::kernels {
 
@@ -40,21 +40,26 @@ struct Stats {
   float max_conflict = 0;
 };
 
+/// The micro-tiles of a tile for one fan: those with nothing but empty cells, those to be looked at cell by cell, and
+/// of the latter those near the apex or behind the fan, whose cells find their beams by an angle of their own. Numbers
+/// of micro-tiles are floats here, as the lanes write them. Room for whole packs behind each list.
+struct FanMicros {
+  static constexpr int kRoom = kMicrosPerTile + 64;
+  int empty_count = 0, edge_count = 0, near_count = 0;  // edge_count: with the near ones
+  alignas(64) float empty[kRoom], edge[kRoom], near[kRoom];
+  // Of the edge micro-tiles that are not near: direction of the centre, its place among the beams, and the lowest beam
+  // that any of its cells can have.
+  alignas(64) float turn_x[kRoom], turn_y[kRoom], place[kRoom], lowest[kRoom];
+};
+
 /// One reading on one tile.
 struct TileArgs {
   float* cells = nullptr;
   bool conflict_plane = false;
   float x0 = 0, y0 = 0;                  // offset of the tile's first cell centre from the apex, exact
-  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched; of a cone: ascending
+  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched; ascending
   int micro_count = 0;
-  const std::uint8_t* empty_micros = nullptr;  // of a fan: micro-tiles wholly in its empty part
-  int empty_count = 0;
-};
-
-/// The micro-tiles of a tile for one fan: those with nothing but empty cells, and those to be looked at cell by cell.
-struct FanMicros {
-  std::uint8_t empty[kMicrosPerTile], edge[kMicrosPerTile];
-  int empty_count = 0, edge_count = 0;
+  const FanMicros* fan = nullptr;  // of a fan, instead
 };
 
 /// Masses of one reading on the listed micro-tiles, kept apart from the map: the unfused path.
@@ -69,7 +74,15 @@ struct DensePlanes {
   float* cc = nullptr;      // mass on empty ∩ occupied, of the rules that leave one; may be null
 };
 
-/// The same in double, with the operands' masses on empty ∩ occupied (null: none).
+/// Masses at 16 bits: e and o in steps of 1/65535, the unknown is the rest. Not of rules that leave a mass on
+/// empty ∩ occupied, but for fuzzy, whose operands need no unknown.
+struct Dense16Planes {
+  const std::uint16_t *ae, *ao, *be, *bo;
+  std::uint16_t *ce, *co;
+  float* k;  // may be null
+};
+
+/// DensePlanes in double, with the operands' masses on empty ∩ occupied (null: none).
 struct DoublePlanes {
   const double *ae, *ao, *au, *ac, *be, *bo, *bu, *bc;
   double *ce, *co, *cu, *cc, *k;  // cc and k may be null
@@ -79,11 +92,13 @@ struct KernelTable {
   std::string_view name;
   int lanes;  // floats in one vector
   void (*fuse_cone[kRules][kConeModels])(const TileArgs&, const ConeReading&, Stats&);
+  void (*compile_fan)(const FanType&, const SensorPose&, Fan&);
   void (*select_fan)(const FanReading&, float x0, float y0, FanMicros&);  // (x0, y0) as in TileArgs
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
   void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
   void (*combine_measured[kRules][kConeModels])(const TileArgs&, const Measured&, Stats&);
   std::uint64_t (*dense[kBatchRules])(const DensePlanes&, std::size_t begin, std::size_t end);
+  std::uint64_t (*dense16[kBatchRules])(const Dense16Planes&, std::size_t begin, std::size_t end);
 };
 
 /// One point of a cone, by the scalar functions. Arguments as Polar (cells).

@@ -8,7 +8,6 @@
 #include "kernels/cell/model_li2014.hpp"
 #include "kernels/cell/polar.hpp"
 #include "kernels/cell/poly.hpp"
-#include "kernels/row/dense.hpp"
 #include "kernels/row/fuse_cone.hpp"
 #include "kernels/row/fuse_fan.hpp"
 #include "kernels/row/tables.hpp"
@@ -22,7 +21,6 @@ void fill_rule(KernelTable& t, int rule) {
   t.fuse_fan[rule] = fuse_fan<Rule>;
   t.combine_measured[rule][0] = combine_measured<Rule, ModelHughes1992>;
   t.combine_measured[rule][1] = combine_measured<Rule, ModelLi2014>;
-  t.dense[rule] = dense<Rule>;
 }
 
 /// A rule that is another one (already filled in) for every source without mass on empty ∩ occupied.
@@ -33,7 +31,6 @@ void fill_paradox_rule(KernelTable& t, int rule, int otherwise) {
   t.fuse_fan[rule] = t.fuse_fan[otherwise];
   t.combine_measured[rule][0] = t.combine_measured[otherwise][0];
   t.combine_measured[rule][1] = combine_measured<Rule, ModelLi2014>;
-  t.dense[rule] = t.dense[otherwise];
 }
 
 EVIGRID_CELL_END

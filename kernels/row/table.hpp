@@ -4,9 +4,9 @@
 // (pcr_table.hpp). Included last.
 #pragma once
 
-#include "kernels/cell/rule_batch.hpp"
 #include "kernels/cell/rule_dempster.hpp"
 #include "kernels/cell/rule_yager.hpp"
+#include "kernels/row/compile_fan.hpp"
 #include "kernels/row/rule_table.hpp"
 #include "kernels/row/select_fan.hpp"
 
@@ -16,20 +16,16 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   KernelTable t{};
   t.name = name;
   t.lanes = lanes;
+  t.compile_fan = compile_fan;
   t.select_fan = select_fan;
   t.measure_cone[0] = measure_cone<ModelHughes1992>;
   t.measure_cone[1] = measure_cone<ModelLi2014>;
   fill_rule<Dempster>(t, kDempster);
   fill_rule<Yager>(t, kYager);
   fill_paradox_rule<Dsmh>(t, kDsmh, kYager);
-  t.dense[kConjunctive] = dense<ConjunctiveRule>;
-  t.dense[kDisjunctive] = dense<Disjunctive>;
-  t.dense[kMurphy] = dense<Murphy>;
-  t.dense[kCautious] = dense<Cautious>;
-  t.dense[kBayes] = dense<Bayes>;
-  t.dense[kFuzzy] = dense<Fuzzy>;
   fill_pcr(t);
   fill_pcr14(t);
+  EVIGRID_BATCH_NAMESPACE::fill_batch(t);
   return t;
 }
 

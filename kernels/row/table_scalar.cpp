@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scalar table: any x86-64. Also the single points, from the same text.
 #define EVIGRID_LAMBDA
+#define EVIGRID_BATCH_NAMESPACE scalar
 #include "kernels/cell/lane_scalar.hpp"
 // After the target.
 #include "kernels/row/fill_pcr.hpp"

@@ -19,4 +19,14 @@ namespace avx512 {
 void fill_pcr(KernelTable&);
 void fill_pcr14(KernelTable&);
 }  // namespace avx512
+// The batched combination: one vector at a time, in namespaces of their own (batch.hpp).
+namespace scalar {
+void fill_batch(KernelTable&);
+}
+namespace avx2_batch {
+void fill_batch(KernelTable&);
+}
+namespace avx512_batch {
+void fill_batch(KernelTable&);
+}
 }  // namespace evigrid::kernels
