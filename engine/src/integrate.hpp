@@ -20,6 +20,8 @@ struct Pipeline {
   std::int64_t& last_stamp_ns;
 };
 
-Report integrate(const Pipeline&, std::span<const Scan>);
+struct Scratch;  // scratch.hpp
+
+Report integrate(const Pipeline&, Scratch&, std::span<const Scan>);
 
 }  // namespace evigrid

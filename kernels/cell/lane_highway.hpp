@@ -136,6 +136,17 @@ struct Lanes {
       }
     }
   }
+  /// One value for each micro-tile of the step, and sixteen for the cells of each.
+  static HWY_INLINE V spread(const float* values, int) {
+    V r;
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Set(Tag(), values[i / kPerMicro]);
+    return r;
+  }
+  static HWY_INLINE V repeat(const float* sixteen, int) {
+    V r;
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Load(Tag(), sixteen + i % kPerMicro * kVecLanes);
+    return r;
+  }
   static HWY_INLINE V load_flat(const float* p) {
     V r;
     for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::LoadU(Tag(), p + i * kVecLanes);

@@ -48,6 +48,9 @@ struct Lanes {
   static void store(float* const* micro, int part, M m, V v) {
     if (m) micro[0][part] = v;
   }
+  /// One value for each micro-tile of the step, and sixteen for the cells of each.
+  static V spread(const float* values, int) { return *values; }
+  static V repeat(const float* sixteen, int part) { return sixteen[part]; }
   static V load_flat(const float* p) { return *p; }
   static void store_flat(float* p, V v) { *p = v; }
   static int count(M m) { return m ? 1 : 0; }

@@ -6,6 +6,8 @@
 #pragma once
 #include <type_traits>
 
+#include "kernels/row/kernel_table.hpp"
+
 EVIGRID_CELL_BEGIN
 
 template <class V>
@@ -30,6 +32,16 @@ EVIGRID_FN V scale(const Source<V>& m) {
 template <class V>
 EVIGRID_FN V scale(const PlainSource<V>&) {
   return V(1.0f);
+}
+
+/// What a rule does with a source's paradoxical mass before anything else. Rules that do not say take it in themselves.
+template <class Rule>
+constexpr Paradox paradox_of() {
+  if constexpr (requires { Rule::kParadox; }) {
+    return Rule::kParadox;
+  } else {
+    return kConsumed;
+  }
 }
 
 /// What one combination gives: the new cell and the conflict k of the two normalised operands. Rules that can meet
@@ -94,6 +106,13 @@ struct Conjunctive {
 template <class V, class S>
 EVIGRID_FN Conjunctive<V> conjunctive(const Cell<V>& c, const S& m) {
   return {c.a * m.x + (c.a * m.v + c.u * m.x), c.b * m.y + (c.b * m.v + c.u * m.y), c.u * m.v, c.a * m.y + c.b * m.x};
+}
+
+/// The same where a cell of a map, which has no double role, is a and the source x: with fused additions.
+template <class V>
+EVIGRID_FN Conjunctive<V> conjunctive_in_map(const Cell<V>& c, const PlainSource<V>& m) {
+  return {mul_add(c.a, m.x + m.v, c.u * m.x), mul_add(c.b, m.y + m.v, c.u * m.y), c.u * m.v,
+          mul_add(c.a, m.y, c.b * m.x)};
 }
 
 /// Shafer's discount: every mass times `reliability`, the rest becomes unknown. `doubt` is 1 − reliability, rounded

@@ -8,6 +8,7 @@
 EVIGRID_CELL_BEGIN
 
 struct Pcr1 {
+  static constexpr Paradox kParadox = kGivenBack;
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>
   static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {
@@ -31,6 +32,7 @@ EVIGRID_FN Source<V> raised(const PlainSource<V>& m) {
 }
 
 struct Pcr4 {
+  static constexpr Paradox kParadox = kGivenBack;
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>
   static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {

@@ -38,6 +38,15 @@ Ring ring(double t) {
   return {hi, static_cast<float>(t2 - hi)};
 }
 
+/// li2014: where the occupied mass over the empty one, 2^(d²·empty_rate − (d − R)²·occupied_rate), is below 2^-30.4 and
+/// the kernel takes it for zero (model_li2014.hpp). The smaller root of the quadratic; negative where there is none.
+double li_free_radius(double empty_rate, double occupied_rate, double r) {
+  const double a = occupied_rate - empty_rate, b = occupied_rate * r, c = b * r - 30.4;
+  const double root = b * b - a * c;
+  if (c <= 0 || root <= 0) return -1;
+  return c / (b + std::sqrt(root)) - 0.01;
+}
+
 }  // namespace
 
 ConeType::ConeType(const ConeSpec& s) : spec(s) {
@@ -64,23 +73,25 @@ ConeReading compile_cone(const ConeType& t, const SensorPose& pose, double range
   const double c = s.cell_m;
   ConeReading q;
   place(q, pose, c, t.lattice);
-  const Direction left = direction(pose.yaw_rad + s.aperture_rad / 2),
-                  right = direction(pose.yaw_rad - s.aperture_rad / 2);
+  const Direction left = edge_direction(pose.yaw_rad + s.aperture_rad / 2),
+                  right = edge_direction(pose.yaw_rad - s.aperture_rad / 2);
   q.lx = left.x, q.ly = left.y, q.rx = right.x, q.ry = right.y;
   q.reliability = static_cast<float>(s.reliability);
   q.doubt = static_cast<float>(1 - s.reliability);
   const double r = quantise(range_m / c, t.lattice), metres = r * c;
-  double outer, edge;
+  double outer, edge, within = -1;
   if (s.model == 0) {
     const double tolerance = quantise(s.tolerance_m / c, t.lattice);
     outer = std::min(r + tolerance, quantise(s.r_max_m / c, t.lattice));
     edge = std::max(r - tolerance, 0.0);
+    within = edge;
     q.hughes.slope = static_cast<float>(-c / (2 * s.r_max_m));
     q.hughes.max_occupied = static_cast<float>(s.max_occupied);
     std::copy(t.margin, t.margin + 4, q.hughes.margin);
   } else {
     outer = quantise(r * (1 + 2 * s.epsilon_ratio), t.lattice);
     edge = r;
+    within = r * (1 + s.epsilon_ratio);
     LiConstants& k = q.li;
     std::copy(t.lambda, t.lambda + 4, k.lambda);
     std::copy(t.shell, t.shell + 4, k.shell);
@@ -100,8 +111,12 @@ ConeReading compile_cone(const ConeType& t, const SensorPose& pose, double range
     k.range_twice_inverse = static_cast<float>(1 / (2 * r));
     k.shell_slope = static_cast<float>(s.rho_i / r);
     k.shell_offset = static_cast<float>(-s.rho_i * s.epsilon_ratio);
+    q.free_radius = static_cast<float>(li_free_radius(empty_rate, occupied_rate, r));
   }
   q.outer = static_cast<float>(outer);
+  q.inner = static_cast<float>(std::max(quantise(s.min_range_m / c, t.lattice), 1 / t.lattice));
+  // Far below it by any rounding, of the float distance in the kernel (2^-22 of it) or of these lines.
+  q.within_radius = static_cast<float>(std::min(within, outer) * (1 - 1e-5) - 0.01);
   q.ring[kOuter] = ring(outer);
   q.ring[kInner] = ring(std::max(quantise(s.min_range_m / c, t.lattice), 1 / t.lattice));
   q.ring[kEdge] = ring(edge);

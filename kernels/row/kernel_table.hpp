@@ -40,12 +40,47 @@ struct Stats {
   float max_conflict = 0;
 };
 
-/// One reading on one tile.
+/// What a rule does with a source's mass on empty ∩ occupied: gives it back to both, drops it, or takes it in.
+enum Paradox : int { kGivenBack, kDropped, kConsumed };
+
+/// Parts of a cone's micro-tiles, by what all their cells are known to be beforehand. A shortcut only: the general
+/// part may hold any micro-tile, and no bit of the map depends on where one is listed.
+enum ConeZone : int {
+  kFree,    // within free_radius: certain to be empty, before the discount
+  kWithin,  // within within_radius: between the rings, so that only the two edges are left to be tested
+  kRim,     // anything
+  kConeZones
+};
+
+/// The micro-tiles of one zone: where their cells lie, and the offset of their first cell centre from the apex, exact.
+/// `cells` is readable for kConeAhead entries more: the cells of what comes next are fetched ahead.
+struct ZoneMicros {
+  float* const* cells = nullptr;
+  const float *x = nullptr, *y = nullptr;
+  int count = 0;
+};
+inline constexpr int kConeAhead = 24;
+
+/// One reading on micro-tiles of any number of tiles.
+struct ConeArgs {
+  ZoneMicros zone[kConeZones];
+  bool conflict_plane = false;
+};
+
+/// The micro-tiles of a cone, four rows of cells at a time: in a band, columns cut[0] … cut[5] (whole numbers) part rim,
+/// within, free, within, rim. Column and band 0 begin at the offset (x0, y0) from the apex.
+struct ConeBands {
+  static constexpr int kCuts = 6;
+  int count = 0, capacity = 0;  // capacity: a multiple of 64
+  float* cut = nullptr;         // cut[c · capacity + band]
+};
+
+/// One fan on one tile.
 struct TileArgs {
   float* cells = nullptr;
   bool conflict_plane = false;
   float x0 = 0, y0 = 0;                  // offset of the tile's first cell centre from the apex, exact
-  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched; of a cone: ascending
+  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched
   int micro_count = 0;
   const std::uint8_t* empty_micros = nullptr;  // of a fan: micro-tiles wholly in its empty part
   int empty_count = 0;
@@ -57,7 +92,8 @@ struct FanMicros {
   int empty_count = 0, edge_count = 0;
 };
 
-/// Masses of one reading on the listed micro-tiles, kept apart from the map: the unfused path.
+/// Masses of one reading on the micro-tiles of its general zone, in their order, kept apart from the map: the unfused
+/// path.
 struct Measured {
   alignas(64) float x[4096], y[4096], v[4096], z[4096], s[4096];
   std::uint16_t inside[256];
@@ -78,11 +114,12 @@ struct DoublePlanes {
 struct KernelTable {
   std::string_view name;
   int lanes;  // floats in one vector
-  void (*fuse_cone[kRules][kConeModels])(const TileArgs&, const ConeReading&, Stats&);
+  void (*cone_bands)(const ConeReading&, float x0, float y0, ConeBands&);
+  void (*fuse_cone[kRules][kConeModels])(const ConeArgs&, const ConeReading&, Stats&);
   void (*select_fan)(const FanReading&, float x0, float y0, FanMicros&);  // (x0, y0) as in TileArgs
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
-  void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
-  void (*combine_measured[kRules][kConeModels])(const TileArgs&, const Measured&, Stats&);
+  void (*measure_cone[kRules][kConeModels])(const ConeArgs&, const ConeReading&, Measured&);
+  void (*combine_measured[kRules][kConeModels])(const ConeArgs&, const Measured&, Stats&);
   std::uint64_t (*dense[kBatchRules])(const DensePlanes&, std::size_t begin, std::size_t end);
 };
 

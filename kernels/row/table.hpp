@@ -7,6 +7,7 @@
 #include "kernels/cell/rule_batch.hpp"
 #include "kernels/cell/rule_dempster.hpp"
 #include "kernels/cell/rule_yager.hpp"
+#include "kernels/row/cone_bands.hpp"
 #include "kernels/row/rule_table.hpp"
 #include "kernels/row/select_fan.hpp"
 
@@ -17,8 +18,7 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   t.name = name;
   t.lanes = lanes;
   t.select_fan = select_fan;
-  t.measure_cone[0] = measure_cone<ModelHughes1992>;
-  t.measure_cone[1] = measure_cone<ModelLi2014>;
+  t.cone_bands = cone_bands;
   fill_rule<Dempster>(t, kDempster);
   fill_rule<Yager>(t, kYager);
   fill_paradox_rule<Dsmh>(t, kDsmh, kYager);
