@@ -43,11 +43,12 @@ class RegionTask {
  private:
   void list_cone(const Footprint& f, std::span<const Reach> reaches) {
     constexpr int kEnough = 4096;
+    Plan& plan = b_.s.plan;
     const ConeList::Marks from = s_.list.marks();
-    s_.cone.find(b_.p.table, f.cone);
+    const ConeFootprint& cone = plan.cone[reaches[0].footprint];
     for (const Reach& r : reaches) {
-      TileWork& w = b_.s.plan.tiles[r.tile];
-      if (s_.list.add(s_.cone, *w.tile, b_.p.store.planes())) w.touched = true;
+      TileWork& w = plan.tiles[r.tile];
+      if (s_.list.add(cone, plan.cones.bands(cone), *w.tile, b_.p.store.planes())) w.touched = true;
     }
     s_.pending.push_back({&f, from, s_.list.marks()});
     if (s_.list.size() > kEnough) fuse_cones();

@@ -15,7 +15,6 @@ struct PendingCone {
 
 /// One worker's.
 struct RegionScratch {
-  ConeFootprint cone;
   ConeList list;
   std::vector<PendingCone> pending;
   kernels::FanMicros fan_micros;

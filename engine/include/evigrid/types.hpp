@@ -88,6 +88,6 @@ std::string_view why_not_in_maps(Rule) noexcept;
 std::span<const Model> all_models() noexcept;
 
 /// Raised when a change alters the bits of a map; part of every report.
-inline constexpr int kMathsVersion = 1;
+inline constexpr int kMathsVersion = 2;
 
 }  // namespace evigrid

@@ -84,6 +84,8 @@ void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& t
   ++plan.batch;
   plan.tiles.clear();
   plan.unsorted.clear();
+  plan.cones.clear();
+  plan.cone.resize(footprints.size());
   Places places(store, plan);
   kernels::FanMicros fan_micros;
   for (std::uint32_t i = 0; i < footprints.size(); ++i) {
@@ -93,8 +95,8 @@ void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& t
       plan.unsorted.push_back({i, place});
     };
     if (!f.fan) {
-      plan.cone.find(table, f.cone);
-      plan.cone.each_tile([&](TileIndex at) { reach(places.find_or_add(at)); });
+      plan.cone[i] = plan.cones.find(table, f.cone);
+      plan.cones.each_tile(plan.cone[i], [&](TileIndex at) { reach(places.find_or_add(at)); });
       continue;
     }
     const CellBox box = fan_box(*f.fan);

@@ -33,8 +33,10 @@ struct Plan {
     return std::span(reaches).subspan(region_begin[i], region_begin[i + 1] - region_begin[i]);
   }
 
+  ConeFootprints cones;
+  std::vector<ConeFootprint> cone;  // by footprint; of fans: empty
+
   // Kept for their memory.
-  ConeFootprint cone;
   std::vector<std::uint32_t> order;
   std::vector<Reach> unsorted;
   std::uint64_t batch = 0;
