@@ -12,13 +12,13 @@ EVIGRID_CELL_BEGIN
 
 struct ModelLi2014 {
   static constexpr bool kTellsByZone = true, kHasFreeZone = true;
-  /// Equations (8) empty and (9) occupied.
+  /// Equations (8) empty and (9) occupied. Below `least` y is exactly 0.
   template <class V>
   struct Main {
     V x, y, lambda, h, dr;
   };
   template <class V>
-  static EVIGRID_FN Main<V> main_masses(const ConeReading& q, const Polar<V>& p) {
+  static EVIGRID_FN Main<V> main_masses(const ConeReading& q, const Polar<V>& p, float least) {
     const auto& k = q.li;
     const V zero(0.0f), one(1.0f);
     const V dr = root(p.d2) - V(k.range);
@@ -29,7 +29,7 @@ struct ModelLi2014 {
     const V dr2 = dr * dr;
     const V yo = neg_mul_add(dr2, V(k.occupied_rate), neg_mul_add(dr2, V(k.occupied_rate_rest), h));
     const V tail = lambda * exp2_poly(max_of(yo, V(-80.0f)));
-    const V y = select(tail >= V(1e-9f), tail, zero);  // exactly none within `free_radius`; no product gets denormal
+    const V y = select(tail >= V(least), tail, zero);  // so that no product with a cell becomes denormal
     return {neg_mul_add(V(0.5f), lambda, one), y, lambda, h, dr};
   }
   /// Equation (10) paradox.
@@ -52,27 +52,34 @@ struct ModelLi2014 {
 
   template <class V>
   static EVIGRID_FN Source<V> measure(const ConeReading& q, const Polar<V>& p) {
-    const Main<V> m = main_masses(q, p);
+    const Main<V> m = main_masses(q, p, 1e-20f);
     const V z = paradox(q, m), v = unknown(q, p, m);
     return {m.x, m.y, v, z, ((m.x + m.y) + z) + v};
   }
 
-  /// Normalised and discounted, for rules that give the paradoxical mass back to x and y in proportion or drop it. As
-  /// long as v = 0, what is left is x and y over their sum either way: z counts in the shell only.
+  /// Normalised and discounted, for rules that give the paradoxical mass back to x and y in proportion or drop it. Given
+  /// back, it counts in the shell only: as long as v = 0, what is left is x and y over their sum. The discount comes
+  /// first, so what is dropped counts everywhere; and Dempster's rule can make much of a very small y.
   template <Paradox kParadox, bool kRim, class V>
   static EVIGRID_FN PlainSource<V> told(const ConeReading& q, const Polar<V>& p) {
     static_assert(kParadox != kConsumed);
     const V rho(q.reliability), doubt(q.doubt), one(1.0f);
-    const Main<V> m = main_masses(q, p);
-    const V xy = m.x + m.y;
-    const V y = m.y * (rho / xy), x = rho - y;
-    if constexpr (kRim) {
-      V known = xy;
-      if constexpr (kParadox == kGivenBack) known = xy + paradox(q, m);
+    if constexpr (kParadox == kGivenBack) {
+      const Main<V> m = main_masses(q, p, 1e-9f);  // none within `free_radius`
+      const V xy = m.x + m.y;
+      const V y = m.y * (rho / xy), x = rho - y;
+      if constexpr (!kRim) return {x, y, doubt};
+      const V known = xy + paradox(q, m);
       const V share = known / (known + unknown(q, p, m));  // exactly 1 where v = 0
       return {x * share, y * share, mul_add(rho, one - share, doubt)};
     } else {
-      return {x, y, doubt};
+      const Main<V> m = main_masses(q, p, 1e-20f);
+      V v(0.0f);
+      if constexpr (kRim) v = unknown(q, p, m);
+      const V s = ((m.x + m.y) + paradox(q, m)) + v;
+      const V x = m.x * rho, y = m.y * rho, rest = mul_add(v, rho, s * doubt);
+      const V r = one / ((x + y) + rest);
+      return {x * r, y * r, rest * r};
     }
   }
   /// Within `free_radius`: the same bits as `told` there.

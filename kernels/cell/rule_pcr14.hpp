@@ -31,8 +31,8 @@ EVIGRID_FN Source<V> raised(const PlainSource<V>& m) {
   return {m.x * up, m.y * up, m.v * up, V(0.0f), up};
 }
 
+// No kParadox: it asks whether masses are zero, so even the smallest y of a model counts, everywhere.
 struct Pcr4 {
-  static constexpr Paradox kParadox = kGivenBack;
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>
   static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {

@@ -128,9 +128,8 @@ void fuse_cone_planes(const ConeArgs& a, const ConeReading& q_in, Stats& stats) 
   const ConeLanes lanes(q);
   Lanes::V max_k(0.0f);
   if constexpr (kTold<paradox_of<Rule>(), Model>) {
-    if constexpr (Model::kHasFreeZone) {
-      fuse_zone<Rule, Model, kFree, kConflict>(a.zone[kFree], q, lanes, stats, max_k);
-    }
+    constexpr ConeZone kNearest = Model::kHasFreeZone && paradox_of<Rule>() == kGivenBack ? kFree : kWithin;
+    fuse_zone<Rule, Model, kNearest, kConflict>(a.zone[kFree], q, lanes, stats, max_k);
     fuse_zone<Rule, Model, kWithin, kConflict>(a.zone[kWithin], q, lanes, stats, max_k);
     fuse_zone<Rule, Model, kRim, kConflict>(a.zone[kRim], q, lanes, stats, max_k);
   } else {
