@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gate, footprints, binning; then every region of tiles fuses its readings in their order, regions in parallel (owner
-// computes). The order of combination is part of the result, so there are no atomics and no reductions on cells, and the
-// map is the same bits for any executor and any number of threads.
+// computes). The order of combination is part of the result, so there are no atomics and no reductions on cells, and
+// the map is the same bits for any executor and any number of threads.
 #include "integrate.hpp"
 
 #include <algorithm>

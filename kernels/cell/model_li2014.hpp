@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // li2014 (Li, Huang, Wang, Dezert 2014, eq. 8–13), unnormalised and divided by exp(−d²/(2(RρE)²)), so that two
 // exponentials are left and the tanh of the thin ignorance shell becomes a fitted cubic. λ is computed from the margins
-// to both edges (no subtraction: it must be right relatively near the edge), the depth in the shell with one Newton step
-// (the shell is steep).
+// to both edges (no subtraction: it must be right relatively near the edge), the depth in the shell with one Newton
+// step (the shell is steep).
 #pragma once
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/polar.hpp"
@@ -36,7 +36,8 @@ struct ModelLi2014 {
   template <class V>
   static EVIGRID_FN V paradox(const ConeReading& q, const Main<V>& m) {
     const auto& k = q.li;
-    const V t = max_of(min_of(mul_add(m.dr, V(k.peak_inverse), V(k.peak_offset)), V(0.516f)), V(-0.463f));  // d/e^β − 1.1
+    const V t =
+        max_of(min_of(mul_add(m.dr, V(k.peak_inverse), V(k.peak_offset)), V(0.516f)), V(-0.463f));  // d/e^β − 1.1
     const V l = scaled_log(t) * V(k.paradox_scale);
     return exp2_poly(neg_mul_add(l, l, m.h));
   }
@@ -57,9 +58,9 @@ struct ModelLi2014 {
     return {m.x, m.y, v, z, ((m.x + m.y) + z) + v};
   }
 
-  /// Normalised and discounted, for rules that give the paradoxical mass back to x and y in proportion or drop it. Given
-  /// back, it counts in the shell only: as long as v = 0, what is left is x and y over their sum. The discount comes
-  /// first, so what is dropped counts everywhere; and Dempster's rule can make much of a very small y.
+  /// Normalised and discounted, for rules that give the paradoxical mass back to x and y in proportion or drop it.
+  /// Given back, it counts in the shell only: as long as v = 0, what is left is x and y over their sum. The discount
+  /// comes first, so what is dropped counts everywhere; and Dempster's rule can make much of a very small y.
   template <Paradox kParadox, bool kRim, class V>
   static EVIGRID_FN PlainSource<V> told(const ConeReading& q, const Polar<V>& p) {
     static_assert(kParadox != kConsumed);

@@ -53,7 +53,8 @@ struct Pcr5 {
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>
   static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {
-    if constexpr (State::kFloors && requires { source.x, source.y, source.v; } && !requires { source.z; }) {
+    if constexpr (
+        State::kFloors && requires { source.x, source.y, source.v; } && !requires { source.z; }) {
       return combine_in_map<State>(c, source);
     } else {
       return combine_at_large<State>(c, source);

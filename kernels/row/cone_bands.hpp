@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The micro-tiles that a cone may touch, found for many bands of four rows at a time, and which of them lie in its zones
-// (kernel_table.hpp). Conservative with a padding far above the rounding here: the kernel decides every cell.
+// The micro-tiles that a cone may touch, found for many bands of four rows at a time, and which of them lie in its
+// zones (kernel_table.hpp). Conservative with a padding far above the rounding here: the kernel decides every cell.
 #pragma once
 #include "kernels/row/kernel_table.hpp"
 
 EVIGRID_CELL_BEGIN
 
-/// An edge as bounds of dx = slope·dy + offset: one of the two is out of reach, both where the edge runs along the rows,
-/// which then limits dy alone.
+/// An edge as bounds of dx = slope·dy + offset: one of the two is out of reach, both where the edge runs along the
+/// rows, which then limits dy alone.
 struct EdgeBound {
   float lower_slope = 0, lower = -1e9f, upper_slope = 0, upper = 1e9f;
   float row = 0;  // along the rows: row·dy ≥ 0
@@ -46,7 +46,8 @@ inline void cone_bands(const ConeReading& q, float x0, float y0, ConeBands& out)
     V hi = root(max_of(neg_mul_add(nearest, nearest, outer * outer), zero)), lo = zero - hi;
     hi = select(nearest > outer, zero - far_off, hi);
     for (const EdgeBound& e : edges) {
-      const V a = V(e.lower_slope) * ya, b = V(e.lower_slope) * yb, c = V(e.upper_slope) * ya, d = V(e.upper_slope) * yb;
+      const V a = V(e.lower_slope) * ya, b = V(e.lower_slope) * yb, c = V(e.upper_slope) * ya,
+              d = V(e.upper_slope) * yb;
       lo = max_of(lo, min_of(a, b) + V(e.lower));
       hi = min_of(hi, max_of(c, d) + V(e.upper));
       hi = select(max_of(V(e.row) * ya, V(e.row) * yb) < zero - padding, zero - far_off, hi);

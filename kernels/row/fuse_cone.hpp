@@ -64,14 +64,17 @@ EVIGRID_FN auto locate(const ConeReading& q, const ConeLanes& lanes, const First
       return between;
     } else {
       at.edge = ring_excess(q.ring[kEdge], dx, yy);
-      return both(between, both(ring_excess(q.ring[kOuter], dx, yy) <= zero, ring_excess(q.ring[kInner], dx, yy) >= zero));
+      return both(between,
+                  both(ring_excess(q.ring[kOuter], dx, yy) <= zero, ring_excess(q.ring[kInner], dx, yy) >= zero));
     }
   }
 }
 
 /// What a cone tells the cells of a step, discounted. Models that know no zones treat every cell alike.
 template <Paradox kParadox, class Model>
-inline constexpr bool kTold = kParadox != kConsumed && requires { Model::kTellsByZone; };
+inline constexpr bool kTold = kParadox != kConsumed&& requires {
+  Model::kTellsByZone;
+};
 template <Paradox kParadox, class Model, ConeZone kZone>
 EVIGRID_FN auto source_of(const ConeReading& q, const Polar<Lanes::V>& at) {
   if constexpr (!kTold<kParadox, Model>) {

@@ -67,8 +67,8 @@ struct ConeArgs {
   bool conflict_plane = false;
 };
 
-/// The micro-tiles of a cone, four rows of cells at a time: in a band, columns cut[0] … cut[5] (whole numbers) part rim,
-/// within, free, within, rim. Column and band 0 begin at the offset (x0, y0) from the apex.
+/// The micro-tiles of a cone, four rows of cells at a time: in a band, columns cut[0] … cut[5] (whole numbers) part
+/// rim, within, free, within, rim. Column and band 0 begin at the offset (x0, y0) from the apex.
 struct ConeBands {
   static constexpr int kCuts = 6;
   int count = 0, capacity = 0;  // capacity: a multiple of 64

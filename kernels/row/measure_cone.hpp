@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// fuse_cone.hpp cut in two, for tests: masses of a cone to memory, and masses from memory into the map. Every micro-tile
-// is looked at cell by cell, as of the general zone.
+// fuse_cone.hpp cut in two, for tests: masses of a cone to memory, and masses from memory into the map. Every
+// micro-tile is looked at cell by cell, as of the general zone.
 #pragma once
 #include "kernels/row/fuse_cone.hpp"
 

@@ -43,11 +43,11 @@ struct FanReading {
   const float* range = nullptr;     // per beam, quantised; kNoBeam where refused
   const float* border_x = nullptr;  // beams + 1 directions between the beams
   const float* border_y = nullptr;
-  float mid_cos = 1, mid_sin = 0;  // middle of the fan, only to find candidates
+  float mid_cos = 1, mid_sin = 0;                            // middle of the fan, only to find candidates
   float beams_per_rad = 0, half_beams = 0, angle_slack = 0;  // slack in beams
   float half_angle = 0;                                      // half of the fan's opening, radians
-  // Extreme ranges over 2^l beams from i at reach[l · stride + i]: the largest (rounded up) in the high and the smallest
-  // (rounded down) in the low 16 bits, in units of reach_unit cells. A whole turn is stored twice over.
+  // Extreme ranges over 2^l beams from i at reach[l · stride + i]: the largest (rounded up) in the high and the
+  // smallest (rounded down) in the low 16 bits, in units of reach_unit cells. A whole turn is stored twice over.
   const std::uint32_t* reach = nullptr;
   int reach_stride = 0, reach_levels = 0;
   float reach_unit = 1;

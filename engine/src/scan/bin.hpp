@@ -26,8 +26,8 @@ struct TileWork {
 
 struct Plan {
   std::vector<TileWork> tiles;
-  std::vector<Reach> reaches;              // region by region, in each by footprint
-  std::vector<std::uint32_t> region_begin; // places in reaches; one more than regions
+  std::vector<Reach> reaches;               // region by region, in each by footprint
+  std::vector<std::uint32_t> region_begin;  // places in reaches; one more than regions
   [[nodiscard]] std::size_t regions() const noexcept { return region_begin.size() - 1; }
   [[nodiscard]] std::span<const Reach> region(std::size_t i) const noexcept {
     return std::span(reaches).subspan(region_begin[i], region_begin[i + 1] - region_begin[i]);

@@ -18,13 +18,15 @@ ConeFootprint ConeFootprints::find(const kernels::KernelTable& table, const kern
   kernels::ConeBands b;
   b.count = f.bands;
   b.capacity = (b.count + kBlock - 1) / kBlock * kBlock;
-  if (cuts_.size() < static_cast<std::size_t>(kCuts * b.capacity)) cuts_.resize(static_cast<std::size_t>(kCuts * b.capacity));
+  if (cuts_.size() < static_cast<std::size_t>(kCuts * b.capacity))
+    cuts_.resize(static_cast<std::size_t>(kCuts * b.capacity));
   b.cut = cuts_.data();
   table.cone_bands(q, f.x0, f.y0, b);
   bands_.resize(bands_.size() + static_cast<std::size_t>(f.bands));
   Cuts* const out = bands_.data() + f.first_band;
   for (int i = 0; i < f.bands; ++i) {
-    for (int c = 0; c < kCuts; ++c) out[i][static_cast<std::size_t>(c)] = static_cast<std::int32_t>(b.cut[c * b.capacity + i]);
+    for (int c = 0; c < kCuts; ++c)
+      out[i][static_cast<std::size_t>(c)] = static_cast<std::int32_t>(b.cut[c * b.capacity + i]);
   }
   return f;
 }
@@ -33,7 +35,8 @@ ConeFootprint ConeFootprints::find(const kernels::KernelTable& table, const kern
 // every run however short it is, and what follows overwrites the rest.
 bool ConeList::add(const ConeFootprint& f, const ConeFootprints::Cuts* bands, const Tile& tile, int planes) {
   constexpr int kSide = kernels::kMicrosPerSide, kRuns = kernels::ConeBands::kCuts - 1;
-  constexpr std::size_t kZone[kRuns] = {kernels::kRim, kernels::kWithin, kernels::kFree, kernels::kWithin, kernels::kRim};
+  constexpr std::size_t kZone[kRuns] = {kernels::kRim, kernels::kWithin, kernels::kFree, kernels::kWithin,
+                                        kernels::kRim};
   const auto first_row = static_cast<int>(tile.index.y * kSide - f.row),
              first_column = static_cast<int>(tile.index.x * kSide - f.column);
   const int begin = std::max(first_row, 0), end = std::min(first_row + kSide, f.bands);
