@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by run.sh and test.sh: what a fresh Debian 12 lacks is installed, or, without root, listed.
+# Sourced by run.sh, test.sh and bench.sh: what a fresh Debian 12 lacks is installed, or, without root, listed.
 EVIGRID_PACKAGES=(
   g++ cmake ninja-build
   libtbb-dev libeigen3-dev libembree-dev libhwy-dev
@@ -7,6 +7,8 @@ EVIGRID_PACKAGES=(
   libyaml-cpp-dev libtinyobjloader-dev libzstd-dev
 )
 EVIGRID_TEST_PACKAGES=(libgtest-dev libbenchmark-dev libgmp-dev python3)
+EVIGRID_BENCH_PACKAGES=(libbenchmark-dev python3 python3-matplotlib)
+EVIGRID_PEER_PACKAGES=(libmrpt-maps-dev liboctomap-dev)  # a gigabyte: only where asked for
 
 evigrid_install() {
   local missing=() package

@@ -14,6 +14,7 @@
 #include "csv_masses.hpp"
 #include "error.hpp"
 #include "evigrid/combine.hpp"
+#include "evigrid/joint.hpp"
 #include "options.hpp"
 #include "out/out_dir.hpp"
 
@@ -23,7 +24,7 @@ namespace {
 struct Args {
   std::string rule, in, out, kernel = "auto", executor = "serial";
   int threads = 0, sources = 2;
-  bool in_double = false;
+  bool in_double = false, in_order = false;
 };
 
 template <class T>
@@ -102,13 +103,36 @@ void mean_of_sources(const MassRows& rows, Work<T>& work, Masses<T>& out, std::v
   }
 }
 
+/// All sources of a row at once.
 template <class T>
-std::string combined(const MassRows& rows, Rule rule, Kernel kernel, Executor* executor) {
+void jointly(const MassRows& rows, Rule rule, Executor* executor, Masses<T>& out, std::vector<T>& k) {
+  std::vector<Masses<T>> sources;
+  for (const SourceMasses& s : rows.sources) sources.emplace_back(s);
+  std::vector<Planes<const T>> views;
+  for (const Masses<T>& m : sources) views.push_back(m.planes());
+  combine_joint(rule, views, out.planes(), k.data(), k.size(), executor);
+}
+
+/// Whether this many sources of a row are combined all at once.
+bool is_joint(const Args& args, Rule rule) {
+  if (args.sources <= 2 || args.in_order || !has_joint_form(rule)) return false;
+  if (args.sources > kMostJointSources) {
+    throw InputError(
+        fmt::format("--sources: {} takes at most {} sources at once; more one after the other by --in-order",
+                    name(rule), kMostJointSources));
+  }
+  return true;
+}
+
+template <class T>
+std::string combined(const MassRows& rows, Rule rule, Kernel kernel, Executor* executor, bool joint) {
   const std::size_t n = rows.rows();
   Work<T> work{rule, kernel, executor};
   Masses<T> out(n, true);
   std::vector<T> conflict(n);
-  if (rule == Rule::murphy && rows.sources.size() > 2) {
+  if (joint) {
+    jointly(rows, rule, executor, out, conflict);
+  } else if (rule == Rule::murphy && rows.sources.size() > 2) {
     mean_of_sources(rows, work, out, conflict);
     out.c.assign(n, T{0});
   } else {
@@ -133,6 +157,7 @@ void combine_file(const Args& args) {
   const Rule rule = parse_rule(args.rule);
   const Kernel kernel = parse_kernel(args.kernel);
   const auto executor = parse_executor(args.executor, args.threads);
+  const bool joint = is_joint(args, rule);
   if (args.in_double && kernel != Kernel::automatic && kernel != Kernel::scalar) {
     throw InputError("--kernel: in double precision only auto or scalar runs");
   }
@@ -146,8 +171,8 @@ void combine_file(const Args& args) {
   }
   const MassRows rows = args.in.empty() ? read_masses(std::cin, "(standard input)", args.sources)
                                         : read_masses(file, args.in, args.sources);
-  const std::string csv = args.in_double ? combined<double>(rows, rule, kernel, executor.get())
-                                         : combined<float>(rows, rule, kernel, executor.get());
+  const std::string csv = args.in_double ? combined<double>(rows, rule, kernel, executor.get(), joint)
+                                         : combined<float>(rows, rule, kernel, executor.get(), joint);
   args.out.empty() ? void(std::cout << csv) : write_file(args.out, csv);
 }
 
@@ -161,6 +186,9 @@ void add_combine(CLI::App& app) {
   command->add_option("-o,--out", args->out, "write to this file instead of standard output");
   command->add_flag("--double", args->in_double, "in double precision");
   command->add_option("--sources", args->sources, "sources per row: columns e1,o1 ... es,os")->capture_default_str();
+  command->add_flag(
+      "--in-order", args->in_order,
+      "more than two sources: one after the other, as a map fuses its readings, for rules with a joint form");
   command->add_option("--kernel", args->kernel, "auto, scalar, avx2 or avx512; the result is the same")
       ->capture_default_str();
   command->add_option("--executor", args->executor, "serial, tbb or openmp; the result is the same")
@@ -174,20 +202,24 @@ void add_combine(CLI::App& app) {
       "world), and the conflict k = e1*o2 + o1*e2.\n"
       "Columns c1, c2, ... are the sources' masses on the paradox: conjunctive and dsmc keep it, dsmh and germ_pcr2\n"
       "consume it (k then holds it too), the other pcr rules first give it back to e and o, all others drop it.\n"
-      "--sources s: sources are combined one after the other in the order 1, 2, ... s, so the order counts for rules\n"
-      "that are not associative; k is the sum over the steps. murphy takes the mean of all s sources and combines it\n"
-      "s - 1 times by Dempster's rule. Joint forms of the pcr rules for more than two sources are not built yet.\n"
+      "--sources s: yager, dubois_prade, dsmh, pcr1 to pcr6, pcr5plus and pcr6plus take up to 8 sources at once "
+      "(their\n"
+      "joint form; k is the product mass on the empty set). The others, and all with --in-order, take them one after\n"
+      "the other, 1, 2, ... s: k is the sum over the steps, and the order counts for germ_pcr2 and every rule with a\n"
+      "joint form. murphy takes the mean of all s sources and combines it s - 1 times by Dempster's rule.\n"
+      "For more than two sources pcr5 and pcr6 give unknown a share, as printed; pcr5plus and pcr6plus do not.\n"
       "Total conflict: Dempster's rule is undefined there and answers the vacuous mass (0, 0, 1), bayes answers 1/2;\n"
       "such rows are counted on standard error. The other rules redistribute it.\n"
       "bayes: o is the probability of occupied, from the odds of o + u/2 of each source; e = 1 - o.\n"
       "fuzzy: e and o are the memberships of empty and occupied, u = (1-e)(1-o) neither and c = e*o both: no masses.\n"
       "cautious: for sources that repeat each other (Denoeux), divided by its sum.\n"
-      "Where rules coincide for two sources one computation serves: pcr3 is pcr2, pcr6 is pcr5, dubois_prade is "
-      "yager.\n\n"
+      "Where rules coincide for two sources one computation serves: pcr3 is pcr2, pcr6, pcr5plus and pcr6plus\n"
+      "are pcr5, dubois_prade is yager.\n\n"
       "Examples:\n"
       "  evigrid combine --rule pcr5 --in pairs.csv\n"
       "  printf 'e1,o1,e2,o2\\n0.6,0.1,0.2,0.7\\n' | evigrid combine --rule dempster --double\n"
-      "  evigrid combine --rule conjunctive --sources 3 --in three.csv\n");
+      "  evigrid combine --rule pcr6plus --sources 3 --in three.csv\n"
+      "  evigrid combine --rule pcr5 --sources 3 --in-order --in three.csv\n");
   command->callback([args] { combine_file(*args); });
 }
 

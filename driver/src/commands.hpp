@@ -15,6 +15,7 @@ void add_combine(CLI::App& app);
 void add_model(CLI::App& app);
 void add_info(CLI::App& app);
 void add_show(CLI::App& app);
+void add_cycle(CLI::App& app);
 
 /// The whole program: 0 success, 2 bad input or usage, 1 a fault of ours.
 int run_program(int argc, const char* const* argv);

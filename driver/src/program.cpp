@@ -41,6 +41,7 @@ int run_program(int argc, const char* const* argv) {
     add_combine(app);
     add_model(app);
     add_show(app);
+    add_cycle(app);
     add_info(app);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
       return std::string("evigrid: ") + error.what() + "\nRun with --help for more information.\n";

@@ -33,12 +33,15 @@ Sensor common(const Spec& spec) {
   return s;
 }
 
-void declare_sensors(const scenes::Scene& scene, Log& log) {
+}  // namespace
+
+std::vector<LogSensor> declared_sensors(const scenes::Scene& scene) {
+  std::vector<LogSensor> out;
   for (const scenes::SonarSpec& sonar : scene.sonars) {
     Sensor s = common(sonar);
     if (s.model == Model::beam) throw InputError("robot.sonar.model: beam is for lasers");
     s.aperture_rad = sonar.aperture_rad;
-    log.sensors.push_back({"sonar", s, {}, true});
+    out.push_back({"sonar", s, {}, true});
   }
   for (const scenes::LaserSpec& laser : scene.lasers) {
     Sensor s = common(laser);
@@ -46,9 +49,12 @@ void declare_sensors(const scenes::Scene& scene, Log& log) {
     s.beams = laser.beams;
     s.first_beam_rad = laser.first_rad;
     s.beam_step_rad = laser.step_rad;
-    log.sensors.push_back({"laser", s, {}, true});
+    out.push_back({"laser", s, {}, true});
   }
+  return out;
 }
+
+namespace {
 
 void require_memory(const scenes::Scene& scene, std::size_t steps) {
   std::size_t beams = scene.sonars.size();
@@ -130,7 +136,7 @@ Simulated simulate(const scenes::Scene& scene, const CastOptions& options) {
     for (scenes::LaserSpec& laser : copy.lasers) laser.noise = {};
     copy.echo = {};
   }
-  declare_sensors(copy, out.log);
+  out.log.sensors = declared_sensors(copy);
   const raycast::Scene caster = scenes::make_caster(copy);
   const scenes::Simulation simulation(copy, caster);
   require_memory(copy, simulation.steps());

@@ -37,8 +37,17 @@ class RegionTask {
       }
     }
     fuse_cones();
+    for (const Reach& r : reaches) {
+      TileWork& w = b_.s.plan.tiles[r.tile];
+      if (w.reached == 0 || w.touched) continue;
+      ++tiles;
+      if (stats.cells == 0) continue;
+      w.tile->change->mark(w.reached, b_.p.changes.next());
+      w.touched = true;
+    }
   }
   kernels::Stats stats;
+  std::uint64_t tiles = 0;
 
  private:
   void list_cone(const Footprint& f, std::span<const Reach> reaches) {
@@ -48,7 +57,7 @@ class RegionTask {
     const ConeFootprint& cone = plan.cone[reaches[0].footprint];
     for (const Reach& r : reaches) {
       TileWork& w = plan.tiles[r.tile];
-      if (s_.list.add(cone, plan.cones.bands(cone), *w.tile, b_.p.store.planes())) w.touched = true;
+      w.reached |= s_.list.add(cone, plan.cones.bands(cone), *w.tile, b_.p.store.planes());
     }
     s_.pending.push_back({&f, from, s_.list.marks()});
     if (s_.list.size() > kEnough) fuse_cones();
@@ -69,14 +78,14 @@ class RegionTask {
     args.conflict_plane = b_.p.params.keep_conflict;
     args.x0 = static_cast<float>(offset(w.at.x, q.i0, q.fx));
     args.y0 = static_cast<float>(offset(w.at.y, q.j0, q.fy));
-    b_.p.table.select_fan(q, args.x0, args.y0, s_.fan_micros);
-    args.micros = s_.fan_micros.edge;
-    args.micro_count = s_.fan_micros.edge_count;
-    args.empty_micros = s_.fan_micros.empty;
-    args.empty_count = s_.fan_micros.empty_count;
+    kernels::FanMicros& micros = s_.fan_micros;
+    b_.p.table.select_fan(q, args.x0, args.y0, micros);
+    args.fan = &micros;
     const std::uint64_t before = stats.cells;
     b_.p.table.fuse_fan[rule_](args, q, stats);
-    if (stats.cells > before) w.touched = true;
+    if (stats.cells == before) return;
+    w.reached |= blocks_of(micros.empty, micros.empty_count) | blocks_of(micros.near, micros.near_count) |
+                 blocks_of(micros.edge, micros.edge_count - micros.near_count);
   }
 
   const Batch& b_;
@@ -85,21 +94,25 @@ class RegionTask {
 };
 
 /// Compiling is independent of order. A single scan's few readings are not worth waking other threads.
-void compile_all(std::vector<Footprint>& footprints, Executor& executor) {
+void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
   constexpr std::size_t kChunk = 16, kAlone = 4 * kChunk;
   const std::size_t n = footprints.size();
   if (n <= kAlone) {
-    for (Footprint& f : footprints) compile(f);
+    for (Footprint& f : footprints) compile(f, p.table);
     return;
   }
-  executor.run(
+  struct All {
+    std::vector<Footprint>& footprints;
+    const kernels::KernelTable& table;
+  } all_of{footprints, p.table};
+  p.executor.run(
       static_cast<std::int64_t>((n + kChunk - 1) / kChunk),
       [](void* context, std::int64_t chunk, int) {
-        auto& all = *static_cast<std::vector<Footprint>*>(context);
+        const auto& [all, table] = *static_cast<All*>(context);
         const std::size_t first = static_cast<std::size_t>(chunk) * kChunk;
-        for (std::size_t i = first; i < std::min(first + kChunk, all.size()); ++i) compile(all[i]);
+        for (std::size_t i = first; i < std::min(first + kChunk, all.size()); ++i) compile(all[i], table);
       },
-      &footprints);
+      &all_of);
 }
 
 }  // namespace
@@ -112,9 +125,10 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
     p.last_stamp_ns = scan.stamp_ns;
     gate_scan(scan, p.sensors, p.params.cell_m, s.footprints, report);
   }
-  compile_all(s.footprints, p.executor);
+  compile_all(s.footprints, p);
   const int threads = p.executor.concurrency();
   bin(s.footprints, p.table, p.store, threads, s.plan);
+  for (const TileWork& w : s.plan.tiles) p.changes.enroll(*w.tile);
   s.stats.assign(s.plan.regions(), {});
   if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
   Batch batch{p, s};
@@ -125,7 +139,7 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
         RegionTask task(b, b.s.workers[static_cast<std::size_t>(worker)]);
         task.run(b.s.plan.region(static_cast<std::size_t>(index)));
         b.s.stats[static_cast<std::size_t>(index)] = task.stats;
-        ++b.p.tiles_per_worker[static_cast<std::size_t>(worker)];
+        b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += task.tiles;
       },
       &batch);
   for (const kernels::Stats& region : s.stats) {
@@ -139,7 +153,9 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
     Report one;
     one.touched = {w.at.x * kSide, w.at.y * kSide, kSide, kSide};
     report += one;
+    p.changes.moved(*w.tile->change);
   }
+  if (report.cells_updated > 0) p.changes.commit();
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evigrid/map.hpp"
+#include "grid/change_log.hpp"
 #include "grid/tile_store.hpp"
 #include "scan/compiled.hpp"
 
@@ -15,6 +16,7 @@ struct Pipeline {
   const kernels::KernelTable& table;
   const std::vector<CompiledSensor>& sensors;
   TileStore& store;
+  ChangeLog& changes;
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
   std::int64_t& last_stamp_ns;

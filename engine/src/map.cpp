@@ -19,6 +19,7 @@ struct Map::Impl {
   const kernels::KernelTable* table;
   std::shared_ptr<Executor> executor;
   TileStore store;
+  ChangeLog changes;
   std::vector<CompiledSensor> compiled;
   std::vector<Sensor> sensors;
   std::vector<std::uint64_t> tiles_per_worker;
@@ -56,7 +57,7 @@ SensorId Map::add(const Sensor& sensor) {
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
 Report Map::integrate(std::span<const Scan> scans) {
   Impl& m = *impl_;
-  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, *m.executor, m.tiles_per_worker, m.last_stamp_ns},
+  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns},
                             m.scratch, scans);
 }
 
@@ -76,10 +77,13 @@ void Map::render(const Costmap& c, CellRect rect, std::span<std::int8_t> out, st
 void Map::render(const Costmap& c, CellRect rect, std::span<std::uint8_t> out, std::ptrdiff_t stride) const {
   render_costmap(impl_->store, c, rect, out, stride);
 }
+std::uint64_t Map::version() const noexcept { return impl_->changes.version(); }
+Changes Map::changes(std::uint64_t since) const { return impl_->changes.since(since); }
 std::uint64_t Map::hash() const { return hash_cells(impl_->store); }
 
 void Map::clear() {
   impl_->store.clear();
+  impl_->changes.clear();
   impl_->last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 }
 const MapParams& Map::params() const noexcept { return impl_->params; }
@@ -92,6 +96,7 @@ std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
 
 const TileStore& MapAccess::store(const Map& m) noexcept { return m.impl_->store; }
 TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
+ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
 std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->last_stamp_ns; }
 std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->last_stamp_ns; }
 Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }

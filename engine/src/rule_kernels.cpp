@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one list of rules: name, kernel, and why a map cannot keep what the rule leaves. The identities (Dubois & Prade =
-// Yager, PCR3 = PCR2, PCR6 = PCR5, DSmC = conjunctive, for two sources on two hypotheses) are held by tests against
+// Yager, PCR3 = PCR2, PCR6 = PCR5+ = PCR6+ = PCR5, DSmC = conjunctive, for two sources on two hypotheses) are held by tests against
 // each rule's own definition.
 #include "rule_kernels.hpp"
 
@@ -30,6 +30,8 @@ constexpr auto kRows = std::to_array<Row>({
     {Rule::pcr3, "pcr3", kPcr2, ""},
     {Rule::pcr4, "pcr4", kPcr4, ""},
     {Rule::pcr6, "pcr6", kPcr5, ""},
+    {Rule::pcr5plus, "pcr5plus", kPcr5, ""},
+    {Rule::pcr6plus, "pcr6plus", kPcr5, ""},
     {Rule::conjunctive, "conjunctive", kConjunctive, kNoParadox},
     {Rule::dsmc, "dsmc", kConjunctive, kNoParadox},
     {Rule::disjunctive, "disjunctive", kDisjunctive, "a cell that starts unknown would stay unknown for ever"},

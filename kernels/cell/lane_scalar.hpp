@@ -17,6 +17,7 @@ inline float mul_add(float a, float b, float c) { return std::fma(a, b, c); }
 inline double mul_add(double a, double b, double c) { return std::fma(a, b, c); }
 inline float neg_mul_add(float a, float b, float c) { return std::fma(-a, b, c); }
 inline double neg_mul_add(double a, double b, double c) { return std::fma(-a, b, c); }
+inline float magnitude(float a) { return std::fabs(a); }
 inline float root(float a) { return std::sqrt(a); }
 inline double root(double a) { return std::sqrt(a); }
 template <class T>
@@ -48,15 +49,28 @@ struct Lanes {
   static void store(float* const* micro, int part, M m, V v) {
     if (m) micro[0][part] = v;
   }
-  /// One value for each micro-tile of the step, and sixteen for the cells of each.
-  static V spread(const float* values, int) { return *values; }
+  static void store_all(float* const* micro, int part, V v) { micro[0][part] = v; }
+  /// A number of each micro-tile of the step, for all its cells.
+  static V spread(const float* per_micro) { return per_micro[0]; }
+  /// Sixteen numbers, the same for every micro-tile.
   static V repeat(const float* sixteen, int part) { return sixteen[part]; }
+  /// Column and row of a cell within its micro-tile.
+  static V column(int part) { return static_cast<float>(part % 4); }
+  static V row(int part) { return static_cast<float>(part / 4); }
+  static constexpr int kWindow = 32;
+  /// Of each micro-tile of the step kWindow floats: the one at `place`, a whole number within [0, kWindow).
+  static V window(const float* const* of_micro, V place) { return of_micro[0][static_cast<int>(place)]; }
   static V load_flat(const float* p) { return *p; }
   static void store_flat(float* p, V v) { *p = v; }
   static int count(M m) { return m ? 1 : 0; }
   static bool any(M m) { return m; }
   static std::uint64_t bits(M m) { return m ? 1 : 0; }
   static float reduce_max(V v) { return v; }
+  /// The numbers where m, one after the other; answers how many. May write kLanes floats.
+  static int append(float* to, M m, V v) {
+    *to = v;
+    return m ? 1 : 0;
+  }
   static V gather(const float* base, V index) { return base[static_cast<int>(index)]; }
   /// High and low 16 bits of the word at base[index], as numbers.
   static void gather_halves(const std::uint32_t* base, V index, V& high, V& low) {

@@ -34,6 +34,12 @@ EVIGRID_FN V scale(const PlainSource<V>&) {
   return V(1.0f);
 }
 
+/// Two-sided sources of maps: a normalised cell and a normalised source, for which some rules have a shorter text.
+template <class State, class S>
+inline constexpr bool kBothNormalised = false;
+template <class State, class V>
+inline constexpr bool kBothNormalised<State, PlainSource<V>> = State::kFloors;
+
 /// What a rule does with a source's paradoxical mass before anything else. Rules that do not say take it in themselves.
 template <class Rule>
 constexpr Paradox paradox_of() {

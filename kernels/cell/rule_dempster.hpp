@@ -14,7 +14,7 @@ struct Dempster {
   static EVIGRID_FN auto combine(const Cell<V>& c, const S& source) {
     const S m = drop_paradox(source);
     const V zero(0.0f), one(1.0f);
-    if constexpr (State::kFloors && !requires { m.z; }) {  // both normalised
+    if constexpr (kBothNormalised<State, S>) {
       const Conjunctive<V> q = conjunctive_in_map(c, m);
       const V sum = (q.e + q.o) + q.t;
       const auto total = sum <= V(State::kTotal);

@@ -47,14 +47,18 @@ struct GermPcr2 {
   }
 };
 
+template <class V>
+EVIGRID_FN V above(const V& product, const V& cut) {
+  return select(product > cut, product, V(0.0f));
+}
+
 /// PCR5: each partial conflict a·y and b·x goes back to its own two parties in proportion to what each put in.
 struct Pcr5 {
   static constexpr Paradox kParadox = kGivenBack;
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>
   static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {
-    if constexpr (
-        State::kFloors && requires { source.x, source.y, source.v; } && !requires { source.z; }) {
+    if constexpr (kBothNormalised<State, S>) {
       return combine_in_map<State>(c, source);
     } else {
       return combine_at_large<State>(c, source);
@@ -83,8 +87,8 @@ struct Pcr5 {
     const Conjunctive<V> q = conjunctive(c, m);
     const V as = c.a * scale(m), bs = c.b * scale(m);
     const V d1 = nonzero(as + m.y), d2 = nonzero(bs + m.x);
-    const V ay = c.a * m.y, bx = c.b * m.x;
-    const V p = select(ay > cut, ay, zero) * d2, w = select(bx > cut, bx, zero) * d1;  // p/(d1·d2) = a·y/(a + y)
+    // p/(d1·d2) = a·y/(a + y)
+    const auto p = above(c.a * m.y, cut) * d2, w = above(c.b * m.x, cut) * d1;
     const V dd = select(q.k > zero, d1 * d2, V(1.0f));  // without conflict no common denominator: see above
     const V e = q.e * dd + (p * as + w * m.x), o = q.o * dd + (p * m.y + w * bs);
     const V r = V(1.0f) / ((e + o) + q.t * dd);

@@ -41,10 +41,12 @@ struct FanType {
   explicit FanType(const FanSpec&);
 };
 
-/// A fan and the arrays it points into; move-only in effect (copies would point at the original's arrays).
+/// A fan, compiled by a table (kernel_table.hpp), and the arrays it points into; move-only in effect (copies would point at the original's arrays).
 struct Fan {
   FanReading reading;
-  std::vector<float> range, border_x, border_y;
+  std::vector<float> range;  // metres, one a beam: negative when refused, above max_range_m clears up to it
+  std::vector<float> cells;  // the same as the kernels read it, between two pads
+  std::vector<float> border_x, border_y;
   std::vector<std::uint32_t> reach;
   double x_min, x_max, y_min, y_max;  // box of what it can touch, cells from the apex
 };
@@ -57,7 +59,5 @@ struct SensorPose {
 double lattice_steps(double reach_cells) noexcept;
 
 ConeReading compile_cone(const ConeType&, const SensorPose&, double range_m) noexcept;
-/// out.range holds metres, one a beam: negative for a refused beam, above max_range_m for one that clears up to it.
-void compile_fan(const FanType&, const SensorPose&, Fan& out);
 
 }  // namespace evigrid::kernels

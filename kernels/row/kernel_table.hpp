@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "kernels/row/reading.hpp"
+#include "kernels/row/compile_reading.hpp"
 
 namespace evigrid::kernels {
 
@@ -75,21 +75,24 @@ struct ConeBands {
   float* cut = nullptr;         // cut[c · capacity + band]
 };
 
+/// The micro-tiles of a tile for one fan: those with nothing but empty cells, those to be looked at cell by cell, and
+/// of the latter those near the apex or behind the fan, whose cells find their beams by an angle of their own. Numbers
+/// of micro-tiles are floats here, as the lanes write them. Room for whole packs behind each list.
+struct FanMicros {
+  static constexpr int kRoom = kMicrosPerTile + 64;
+  int empty_count = 0, edge_count = 0, near_count = 0;  // edge_count: with the near ones
+  alignas(64) float empty[kRoom], edge[kRoom], near[kRoom];
+  // Of the edge micro-tiles that are not near: direction of the centre, its place among the beams, and the lowest beam
+  // that any of its cells can have.
+  alignas(64) float turn_x[kRoom], turn_y[kRoom], place[kRoom], lowest[kRoom];
+};
+
 /// One fan on one tile.
 struct TileArgs {
   float* cells = nullptr;
   bool conflict_plane = false;
-  float x0 = 0, y0 = 0;                  // offset of the tile's first cell centre from the apex, exact
-  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched
-  int micro_count = 0;
-  const std::uint8_t* empty_micros = nullptr;  // of a fan: micro-tiles wholly in its empty part
-  int empty_count = 0;
-};
-
-/// The micro-tiles of a tile for one fan: those with nothing but empty cells, and those to be looked at cell by cell.
-struct FanMicros {
-  std::uint8_t empty[kMicrosPerTile], edge[kMicrosPerTile];
-  int empty_count = 0, edge_count = 0;
+  float x0 = 0, y0 = 0;  // offset of the tile's first cell centre from the apex, exact
+  const FanMicros* fan = nullptr;
 };
 
 /// Masses of one reading on the micro-tiles of its general zone, in their order, kept apart from the map: the unfused
@@ -116,6 +119,7 @@ struct KernelTable {
   int lanes;  // floats in one vector
   void (*cone_bands)(const ConeReading&, float x0, float y0, ConeBands&);
   void (*fuse_cone[kRules][kConeModels])(const ConeArgs&, const ConeReading&, Stats&);
+  void (*compile_fan)(const FanType&, const SensorPose&, Fan&);
   void (*select_fan)(const FanReading&, float x0, float y0, FanMicros&);  // (x0, y0) as in TileArgs
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
   void (*measure_cone[kRules][kConeModels])(const ConeArgs&, const ConeReading&, Measured&);

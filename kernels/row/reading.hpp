@@ -40,7 +40,7 @@ struct FanReading {
   float fx = 0, fy = 0;
   int beams = 0;
   bool full_circle = false;
-  const float* range = nullptr;     // per beam, quantised; kNoBeam where refused
+  const float* range = nullptr;     // per beam, quantised; kNoBeam where refused and for kFanPad beams on both sides
   const float* border_x = nullptr;  // beams + 1 directions between the beams
   const float* border_y = nullptr;
   float mid_cos = 1, mid_sin = 0;                            // middle of the fan, only to find candidates
@@ -56,5 +56,6 @@ struct FanReading {
   float empty = 0, occupied = 0, fall = 0;  // masses at d = 0 after discount; share lost per cell
 };
 inline constexpr float kNoBeam = -1e6f;
+inline constexpr int kFanPad = 72;
 
 }  // namespace evigrid::kernels

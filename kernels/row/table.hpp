@@ -7,6 +7,7 @@
 #include "kernels/cell/rule_batch.hpp"
 #include "kernels/cell/rule_dempster.hpp"
 #include "kernels/cell/rule_yager.hpp"
+#include "kernels/row/compile_fan.hpp"
 #include "kernels/row/cone_bands.hpp"
 #include "kernels/row/rule_table.hpp"
 #include "kernels/row/select_fan.hpp"
@@ -17,6 +18,7 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   KernelTable t{};
   t.name = name;
   t.lanes = lanes;
+  t.compile_fan = compile_fan;
   t.select_fan = select_fan;
   t.cone_bands = cone_bands;
   fill_rule<Dempster>(t, kDempster);

@@ -8,42 +8,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "hearing.hpp"
+#include "reading.hpp"
 
 namespace evigrid::scenes {
 namespace {
 
 constexpr std::size_t kBlock = 16;  // steps
-
-/// What the sensor says: its echo with noise, or that there was none, or that it was too near to be timed.
-template <class Sensor>
-float reading(const raycast::Echo& echo, const Sensor& sensor, const raycast::NoiseKey& key, std::uint32_t beam = 0) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  if (echo.status == raycast::EchoStatus::none) return kInfinity;
-  if (echo.status == raycast::EchoStatus::too_close) return -kInfinity;
-  const bool exact = sensor.noise.sigma_m == 0 && sensor.noise.ratio == 0;
-  const double range_m = exact ? echo.range_m : raycast::noisy(echo.range_m, sensor.noise, key, beam);
-  if (range_m > sensor.max_range_m) return kInfinity;
-  if (range_m < sensor.min_range_m) return -kInfinity;
-  return static_cast<float>(range_m);
-}
-
-raycast::ConeQuery query(const SonarSpec& sonar, const Pose& T_map_robot) {
-  const Pose p = compose(T_map_robot, sonar.T_robot_sensor);
-  return {p.x_m, p.y_m, p.yaw_rad, sonar.aperture_rad, sonar.min_range_m, sonar.max_range_m};
-}
-
-raycast::FanQuery query(const LaserSpec& laser, const Pose& T_map_robot) {
-  const Pose p = compose(T_map_robot, laser.T_robot_sensor);
-  return {p.x_m, p.y_m, p.yaw_rad, laser.first_rad, laser.step_rad, laser.beams, laser.max_range_m};
-}
-
-raycast::Echo echo_of(double range_m, const LaserSpec& laser) {
-  if (!(range_m <= laser.max_range_m)) return {};
-  return {range_m < laser.min_range_m ? raycast::EchoStatus::too_close : raycast::EchoStatus::ok, range_m};
-}
 
 }  // namespace
 
@@ -78,9 +50,9 @@ void Simulation::measure(std::size_t first, std::size_t count, Step* steps) cons
   std::vector<raycast::FanQuery> fans;
   std::size_t beams = 0;
   for (std::size_t i = first; i < first + count; ++i) {
-    for (const SonarSpec& sonar : scene_.sonars) cones.push_back(query(sonar, poses_[i]));
+    for (const SonarSpec& sonar : scene_.sonars) cones.push_back(query(sonar, compose(poses_[i], sonar.T_robot_sensor)));
     for (const LaserSpec& laser : scene_.lasers) {
-      fans.push_back(query(laser, poses_[i]));
+      fans.push_back(query(laser, compose(poses_[i], laser.T_robot_sensor)));
       beams += static_cast<std::size_t>(laser.beams);
     }
   }

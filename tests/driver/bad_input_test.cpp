@@ -73,7 +73,7 @@ TEST_F(BadInput, CellSizes) {
   expect_map_refused(good, "--cell", {"--cell", "five"});
 }
 TEST_F(BadInput, UnknownNames) {
-  expect_map_refused(good, "--rule: 'pcr5plus' is unknown or not built yet; known: dempster", {"--rule", "pcr5plus"});
+  expect_map_refused(good, "--rule: 'pcr7' is unknown or not built yet; known: dempster", {"--rule", "pcr7"});
   expect_map_refused(good, "model 'magic'", {"--model", "magic"});
   expect_map_refused(good, "--model: li2014 is for sonar cones", {"--model", "li2014"});
   expect_map_refused(good, "--kernel: 'mmx'", {"--kernel", "mmx"});

@@ -202,6 +202,34 @@ TEST(Combine, ThreeSourcesOneAfterTheOther) {
   }
 }
 
+// Dezert, Dezert & Smarandache 2021: three sources at once; in order pcr5plus is pcr5, step by step.
+TEST(Combine, SeveralSourcesTakeTheJointFormOfTheRule) {
+  const std::string csv = "e1,o1,e2,o2,e3,o3\n.6,.1,.5,.3,.4,.1\n";
+  const auto run = [&](std::vector<std::string> more) {
+    std::vector<std::string> args{"combine", "--sources", "3", "--double", "--rule"};
+    args.insert(args.end(), more.begin(), more.end());
+    return rows_of(evigrid(args, csv)).at(0);
+  };
+  EXPECT_NEAR(run({"pcr5"})[0], .723281, 5.1e-7);
+  EXPECT_NEAR(run({"pcr6"})[0], .743496, 5.1e-7);
+  EXPECT_NEAR(run({"pcr5plus"})[0], .768631, 5.1e-7);
+  EXPECT_NEAR(run({"pcr6plus"})[0], .788847, 5.1e-7);
+  EXPECT_NEAR(run({"pcr6plus"})[4], .343, 1e-12);
+  EXPECT_EQ(run({"pcr5", "--in-order"}), run({"pcr5plus", "--in-order"}));
+  EXPECT_GT(std::abs(run({"pcr5", "--in-order"})[0] - run({"pcr5"})[0]), 1e-3);
+  EXPECT_EQ(run({"dempster", "--in-order"}), run({"dempster"}));
+}
+
+TEST(Combine, TooManySourcesForAJointFormAreRefusedByName) {
+  std::string csv = "e1,o1", row = "\n.1,.2";
+  for (int s = 2; s <= 9; ++s) csv += ",e" + std::to_string(s) + ",o" + std::to_string(s), row += ",.1,.2";
+  csv += row + "\n";
+  const Ran ran = evigrid({"combine", "--rule", "pcr5", "--sources", "9"}, csv);
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("--in-order"), std::string::npos) << ran.err;
+  EXPECT_EQ(evigrid({"combine", "--rule", "pcr5", "--sources", "9", "--in-order"}, csv).code, 0);
+}
+
 // Three sources of (.6, 0, .4) and two of (0, .6, .4): the mean (.36, .24, .4), four times with itself.
 TEST(Combine, MurphyTakesTheMeanOfAllSources) {
   const std::string csv = "e1,o1,e2,o2,e3,o3,e4,o4,e5,o5\n.6,0,0,.6,.6,0,0,.6,.6,0\n";

@@ -226,6 +226,8 @@ Combined<T, Parts> combine(evigrid::Rule rule, const Frame& frame, const Belief<
       case Rule::pcr4:
       case Rule::pcr5:
       case Rule::pcr6:
+      case Rule::pcr5plus:
+      case Rule::pcr6plus:
         return give_back_empty<T, Parts>(frame, m);
       default:
         return drop_empty<T, Parts>(frame, m);
@@ -258,13 +260,15 @@ Combined<T, Parts> combine(evigrid::Rule rule, const Frame& frame, const Belief<
     case Rule::pcr4:
     case Rule::pcr5:
     case Rule::pcr6:
+    case Rule::pcr5plus:
+    case Rule::pcr6plus:
       out = conjunctive<T, Parts>(frame, m1, m2);
       if (rule == Rule::pcr1) share_by_all_columns<T, Parts>(out, m1, m2);
       if (rule == Rule::pcr2) share_by_columns<T, Parts>(out, m1, m2, involved<T, Parts>(frame, m1, m2));
       if (rule == Rule::pcr3) share_by_pairs<T, Parts>(out, frame, m1, m2, false, least);
       if (rule == Rule::pcr4) share_by_pairs<T, Parts>(out, frame, m1, m2, true, least);
-      if (rule == Rule::pcr5) share_by_products<T, Parts>(out, frame, m1, m2);
-      if (rule == Rule::pcr6) share_by_sources<T, Parts>(out, frame, {m1, m2});
+      if (rule == Rule::pcr5 || rule == Rule::pcr5plus) share_by_products<T, Parts>(out, frame, m1, m2);
+      if (rule == Rule::pcr6 || rule == Rule::pcr6plus) share_by_sources<T, Parts>(out, frame, {m1, m2});
       break;
     case Rule::conjunctive:  // open world: the empty set is a set like any other
       out = conjunctive<T, Parts>(frame, m1, m2);

@@ -3,7 +3,9 @@
 #pragma once
 #include "evigrid/combine.hpp"
 #include "evigrid/executor.hpp"
+#include "evigrid/frame.hpp"
 #include "evigrid/io.hpp"
+#include "evigrid/joint.hpp"
 #include "evigrid/map.hpp"
 #include "evigrid/scan.hpp"
 #include "evigrid/sensor.hpp"

@@ -38,6 +38,14 @@ struct Costmap {
 /// inscribed radius, is the inflation layer's to write.
 [[nodiscard]] std::uint8_t cost_of(const Costmap&, const Mass&) noexcept;
 
+/// What a consumer that holds a picture of the map has to draw again.
+struct Changes {
+  std::uint64_t version = 0;  ///< of the map now: what to ask with next time
+  bool cleared = false;       ///< the map was cleared since: nothing drawn before holds any more
+  /// One for each tile that changed, the last changed first; they do not overlap. Outside them no cell changed.
+  std::vector<CellRect> rects;
+};
+
 struct MapAccess;  // of the library itself: saving and loading
 
 class Map {
@@ -69,6 +77,12 @@ class Map {
   void render(const Costmap&, CellRect rect, std::span<std::int8_t> out, std::ptrdiff_t stride) const;
   /// The same with cost_of each cell.
   void render(const Costmap&, CellRect rect, std::span<std::uint8_t> out, std::ptrdiff_t stride) const;
+
+  /// Counts the calls that changed a cell, and clear(). 0: nothing yet.
+  [[nodiscard]] std::uint64_t version() const noexcept;
+  /// What changed after that version: within each tile of 64 × 64 cells the box of the 8 × 8 blocks that readings
+  /// reached. Its cost grows with what changed, not with the map. Several consumers may each ask with their own version.
+  [[nodiscard]] Changes changes(std::uint64_t since) const;
 
   /// Hash of (index, bits of e, o, u) of the non-vacuous cells in row-major order; independent of tiles and threads.
   [[nodiscard]] std::uint64_t hash() const;

@@ -50,6 +50,8 @@ enum class Rule : std::uint8_t {
   pcr3,
   pcr4,
   pcr6,
+  pcr5plus,
+  pcr6plus,
   conjunctive,
   dsmc,
   disjunctive,
@@ -58,7 +60,7 @@ enum class Rule : std::uint8_t {
   bayes,
   fuzzy
 };
-inline constexpr int kRuleCount = 18, kMapRuleCount = 11;
+inline constexpr int kRuleCount = 20, kMapRuleCount = 13;
 
 /// Inverse sensor models. hughes1992 and li2014 are sonar cones, beam is a fan of laser beams.
 enum class Model : std::uint8_t { hughes1992, li2014, beam };
@@ -80,8 +82,8 @@ std::optional<Model> model_from_name(std::string_view) noexcept;
 std::optional<Kernel> kernel_from_name(std::string_view) noexcept;
 std::span<const Rule> all_rules() noexcept;
 std::span<const Rule> map_rules() noexcept;
-/// The first rule that gives the same for two sources on this frame: itself but for pcr3 (pcr2), pcr6 (pcr5),
-/// dubois_prade (yager) and dsmc (conjunctive).
+/// The first rule that gives the same for two sources on this frame: itself but for pcr3 (pcr2), pcr6, pcr5plus and
+/// pcr6plus (pcr5), dubois_prade (yager) and dsmc (conjunctive).
 Rule same_as(Rule) noexcept;
 /// Empty for the rules of maps, else the reason.
 std::string_view why_not_in_maps(Rule) noexcept;

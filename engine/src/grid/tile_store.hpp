@@ -19,6 +19,8 @@ inline double offset(std::int64_t t, std::int64_t i0, float f) noexcept {
   return static_cast<double>(t * kernels::kTileSide - i0) - static_cast<double>(f);
 }
 
+struct TileChange;
+
 /// Cells of a tile; the store's memory owns them.
 class TileCells {
  public:
@@ -34,6 +36,7 @@ struct Tile {
   TileCells cells;
   std::uint64_t batch = 0;  // the last batch of scans that reached it, and its place among that batch's tiles
   std::uint32_t place = 0;
+  TileChange* change = nullptr;  // change_log.hpp
 };
 
 class TileStore {

@@ -141,8 +141,16 @@ void decode_one(Batch& b, std::size_t i, std::size_t worker) noexcept {
       io::crc32(block) != e.crc ? "has a wrong checksum" : b.decoders[worker].decode(b.store, block, *b.tiles[i]);
 }
 
+/// A tile that was read is new to every consumer.
+void note_all(ChangeLog& changes, Tile& tile) {
+  changes.enroll(tile);
+  tile.change->mark(~BlockMask{0}, changes.next());
+  changes.moved(*tile.change);
+}
+
 void read_tiles(Source& in, std::span<const io::Entry> entries, Map& map) {
   TileStore& store = MapAccess::store(map);
+  ChangeLog& changes = MapAccess::changes(map);
   Executor& executor = MapAccess::executor(map);
   std::vector<io::TileDecoder> decoders(static_cast<std::size_t>(executor.concurrency()));
   for (std::size_t first = 0; first < entries.size(); first += kBatch) {
@@ -161,7 +169,9 @@ void read_tiles(Source& in, std::span<const io::Entry> entries, Map& map) {
     for (std::size_t i = 0; i < batch.wrong.size(); ++i) {
       if (batch.wrong[i] != nullptr) in.fail("tile " + std::to_string(first + i) + " " + batch.wrong[i]);
     }
+    for (Tile* tile : batch.tiles) note_all(changes, *tile);
   }
+  if (!entries.empty()) changes.commit();
 }
 
 Map read_map(Source& in, const LoadOptions& options) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "evigrid/map.hpp"
+#include "grid/change_log.hpp"
 #include "grid/tile_store.hpp"
 
 namespace evigrid {
@@ -11,6 +12,7 @@ namespace evigrid {
 struct MapAccess {
   static const TileStore& store(const Map&) noexcept;
   static TileStore& store(Map&) noexcept;
+  static ChangeLog& changes(Map&) noexcept;
   static std::int64_t& last_stamp_ns(Map&) noexcept;  ///< the smallest number before the first scan
   static std::int64_t last_stamp_ns(const Map&) noexcept;
   static Executor& executor(const Map&) noexcept;

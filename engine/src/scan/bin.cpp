@@ -49,11 +49,15 @@ class Places {
   std::map<TileIndex, std::uint32_t> missing_;
 };
 
-/// Tiles in row-major order, cut where the readings of their tiles add up to equal shares.
-void share_out(Plan& p, int threads) {
+/// Tiles in row-major order, cut where the readings of their tiles add up to equal shares. A fan is fused tile by tile,
+/// so a region of one tile keeps that tile at hand for all its fans; cones are fused over many tiles at once.
+void share_out(Plan& p, int threads, bool fans) {
   constexpr std::uint32_t kPerThread = 4;
   const auto tiles = static_cast<std::uint32_t>(p.tiles.size()),
-             regions = std::min(tiles, threads > 1 ? kPerThread * static_cast<std::uint32_t>(threads) : 1);
+             most = fans          ? tiles
+                    : threads > 1 ? kPerThread * static_cast<std::uint32_t>(threads)
+                                  : 1,
+             regions = std::min(tiles, most);
   p.region_begin.assign(regions + 1, 0);
   if (regions <= 1) {
     if (regions == 1) p.region_begin[1] = static_cast<std::uint32_t>(p.unsorted.size());
@@ -65,9 +69,10 @@ void share_out(Plan& p, int threads) {
   std::sort(p.order.begin(), p.order.end(), [&](auto a, auto b) { return p.tiles[a].at < p.tiles[b].at; });
   const std::uint64_t all = p.unsorted.size();
   std::uint64_t before = 0;
+  std::uint32_t place = 0;
   for (const std::uint32_t i : p.order) {
     TileWork& w = p.tiles[i];
-    w.region = static_cast<std::uint32_t>((2 * before + w.readings) * regions / (2 * all));
+    w.region = fans ? place++ : static_cast<std::uint32_t>((2 * before + w.readings) * regions / (2 * all));
     before += w.readings;
     p.region_begin[w.region + 1] += w.readings;
   }
@@ -88,6 +93,7 @@ void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& t
   plan.cone.resize(footprints.size());
   Places places(store, plan);
   kernels::FanMicros fan_micros;
+  bool fans = false;
   for (std::uint32_t i = 0; i < footprints.size(); ++i) {
     const Footprint& f = footprints[i];
     const auto reach = [&](std::uint32_t place) {
@@ -99,6 +105,7 @@ void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& t
       plan.cones.each_tile(plan.cone[i], [&](TileIndex at) { reach(places.find_or_add(at)); });
       continue;
     }
+    fans = true;
     const CellBox box = fan_box(*f.fan);
     const TileIndex first = tile_of(box.x0, box.y0), last = tile_of(box.x1, box.y1);
     for (std::int64_t y = first.y; y <= last.y; ++y) {
@@ -118,7 +125,7 @@ void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& t
     }
   }
   places.make_missing();
-  share_out(plan, threads);
+  share_out(plan, threads, fans);
 }
 
 }  // namespace evigrid

@@ -21,7 +21,8 @@ struct TileWork {
   TileIndex at;
   Tile* tile = nullptr;
   std::uint32_t readings = 0, region = 0;
-  bool touched = false;  // by the batch; written by its region's task
+  BlockMask reached = 0;  // by the batch's readings, and whether any may have changed a cell: its region's task says
+  bool touched = false;
 };
 
 struct Plan {

@@ -33,7 +33,7 @@ ConeFootprint ConeFootprints::find(const kernels::KernelTable& table, const kern
 
 // No branch depends on where a run ends: the micro-tiles of a tile are numbered in bytes, sixteen of them written for
 // every run however short it is, and what follows overwrites the rest.
-bool ConeList::add(const ConeFootprint& f, const ConeFootprints::Cuts* bands, const Tile& tile, int planes) {
+BlockMask ConeList::add(const ConeFootprint& f, const ConeFootprints::Cuts* bands, const Tile& tile, int planes) {
   constexpr int kSide = kernels::kMicrosPerSide, kRuns = kernels::ConeBands::kCuts - 1;
   constexpr std::size_t kZone[kRuns] = {kernels::kRim, kernels::kWithin, kernels::kFree, kernels::kWithin,
                                         kernels::kRim};
@@ -42,9 +42,12 @@ bool ConeList::add(const ConeFootprint& f, const ConeFootprints::Cuts* bands, co
   const int begin = std::max(first_row, 0), end = std::min(first_row + kSide, f.bands);
   std::uint8_t micro[kernels::kConeZones][kernels::kMicrosPerTile + kSide];
   std::array<int, kernels::kConeZones> n{};
+  BlockMask blocks = 0;
   for (int band = begin; band < end; ++band) {
     ConeFootprints::Cuts cut = bands[band];
     for (auto& c : cut) c = std::min(std::max(c - first_column, 0), kSide);
+    const BlockMask run = (BlockMask{1} << (cut[kRuns] + 1) / 2) - (BlockMask{1} << cut[0] / 2);
+    blocks |= (cut[0] < cut[kRuns] ? run : 0) << ((band - first_row) / 2 * kBlocksPerSide);
     for (std::size_t r = 0; r < kRuns; ++r) {
       const auto first = static_cast<std::uint8_t>((band - first_row) * kSide + cut[r]);
       std::uint8_t* const to = micro[kZone[r]] + n[kZone[r]];
@@ -68,7 +71,7 @@ bool ConeList::add(const ConeFootprint& f, const ConeFootprints::Cuts* bands, co
     }
     count_[z] += n[z];
   }
-  return n[0] + n[1] + n[2] > 0;
+  return blocks;
 }
 
 kernels::ConeArgs ConeList::args(const Marks& from, const Marks& to) const noexcept {

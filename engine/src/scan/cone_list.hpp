@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "grid/change_log.hpp"
 #include "grid/tile_store.hpp"
 #include "kernels/row/kernel_table.hpp"
 
@@ -44,8 +45,8 @@ class ConeList {
   [[nodiscard]] const Marks& marks() const noexcept { return count_; }
   [[nodiscard]] int size() const noexcept { return count_[0] + count_[1] + count_[2]; }
   void clear() noexcept { count_ = {}; }
-  /// What the footprint may touch of one tile. True when that is anything.
-  bool add(const ConeFootprint&, const ConeFootprints::Cuts* bands, const Tile&, int planes);
+  /// What the footprint may touch of one tile; answers the blocks that this lies in.
+  BlockMask add(const ConeFootprint&, const ConeFootprints::Cuts* bands, const Tile&, int planes);
   /// What was listed between two marks.
   [[nodiscard]] kernels::ConeArgs args(const Marks& from, const Marks& to) const noexcept;
 

@@ -132,9 +132,9 @@ void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, dou
   }
 }
 
-void compile(Footprint& f) {
+void compile(Footprint& f, const kernels::KernelTable& table) {
   if (f.fan) {
-    kernels::compile_fan(std::get<kernels::FanType>(f.sensor->type), f.pose, *f.fan);
+    table.compile_fan(std::get<kernels::FanType>(f.sensor->type), f.pose, *f.fan);
   } else {
     f.cone = kernels::compile_cone(std::get<kernels::ConeType>(f.sensor->type), f.pose, f.range_m);
   }
