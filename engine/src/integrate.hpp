@@ -23,6 +23,8 @@ struct Pipeline {
   bool undo = false;  // takes the scans back
 };
 
-Report integrate(const Pipeline&, std::span<const Scan>);
+struct Scratch;  // scratch.hpp
+
+Report integrate(const Pipeline&, Scratch&, std::span<const Scan>);
 
 }  // namespace evigrid

@@ -10,6 +10,7 @@
 #include "integrate.hpp"
 #include "io/map_access.hpp"
 #include "params/table.hpp"
+#include "scratch.hpp"
 
 namespace evigrid {
 
@@ -22,6 +23,7 @@ struct Map::Impl {
   std::vector<CompiledSensor> compiled;
   std::vector<Sensor> sensors;
   std::vector<std::uint64_t> tiles_per_worker;
+  Scratch scratch;
   std::int64_t last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
@@ -57,7 +59,8 @@ Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>
 Report Map::integrate(std::span<const Scan> scans) {
   Impl& m = *impl_;
   return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns}, scans);
+      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns}, m.scratch,
+      scans);
 }
 
 Report Map::undo(const Scan& scan) { return undo(std::span<const Scan>(&scan, 1)); }
@@ -69,7 +72,7 @@ Report Map::undo(std::span<const Scan> scans) {
   }
   return evigrid::integrate(
       {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns, true},
-      scans);
+      m.scratch, scans);
 }
 
 Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }

@@ -172,15 +172,16 @@ struct Lanes {
   /// Column and row of a cell within its micro-tile.
   static HWY_INLINE V column(int) {
     alignas(64) static constexpr float kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-    return within_micro(kColumn);
+    return repeat(kColumn);
   }
   static HWY_INLINE V row(int) {
     alignas(64) static constexpr float kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-    return within_micro(kRow);
+    return repeat(kRow);
   }
-  static HWY_INLINE V within_micro(const float* pattern) {
+  /// Sixteen numbers, the same for every micro-tile.
+  static HWY_INLINE V repeat(const float* sixteen, int = 0) {
     V r;
-    for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Load(Tag(), pattern + i % kPerMicro * kVecLanes);
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Load(Tag(), sixteen + i % kPerMicro * kVecLanes);
     return r;
   }
   static constexpr int kWindow = 2 * kVecLanes;

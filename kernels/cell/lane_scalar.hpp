@@ -64,6 +64,8 @@ struct Lanes {
   static void store_all(float* const* micro, int part, V v) { micro[0][part] = v; }
   /// A number of each micro-tile of the step, for all its cells.
   static V spread(const float* per_micro) { return per_micro[0]; }
+  /// Sixteen numbers, the same for every micro-tile.
+  static V repeat(const float* sixteen, int part) { return sixteen[part]; }
   /// Column and row of a cell within its micro-tile.
   static V column(int part) { return static_cast<float>(part % 4); }
   static V row(int part) { return static_cast<float>(part / 4); }

@@ -6,6 +6,8 @@
 #pragma once
 #include <type_traits>
 
+#include "kernels/row/kernel_table.hpp"
+
 EVIGRID_CELL_BEGIN
 
 template <class V>
@@ -72,6 +74,22 @@ EVIGRID_FN V gap_of(const S& m) {
     return m.gap;
   } else {
     return m.y - m.x;
+  }
+}
+
+/// Two-sided sources of maps: a normalised cell and a normalised source, for which some rules have a shorter text.
+template <class State, class S>
+inline constexpr bool kBothNormalised = false;
+template <class State, class V>
+inline constexpr bool kBothNormalised<State, PlainSource<V>> = State::kFloors;
+
+/// What a rule does with a source's paradoxical mass before anything else. Rules that do not say take it in themselves.
+template <class Rule>
+constexpr Paradox paradox_of() {
+  if constexpr (requires { Rule::kParadox; }) {
+    return Rule::kParadox;
+  } else {
+    return kConsumed;
   }
 }
 
@@ -147,6 +165,13 @@ struct Conjunctive {
 template <class V, class S>
 EVIGRID_FN Conjunctive<V> conjunctive(const Cell<V>& c, const S& m) {
   return {c.a * m.x + (c.a * m.v + c.u * m.x), c.b * m.y + (c.b * m.v + c.u * m.y), c.u * m.v, c.a * m.y + c.b * m.x};
+}
+
+/// The same where a cell of a map, which has no double role, is a and the source x: with fused additions.
+template <class V>
+EVIGRID_FN Conjunctive<V> conjunctive_in_map(const Cell<V>& c, const PlainSource<V>& m) {
+  return {mul_add(c.a, m.x + m.v, c.u * m.x), mul_add(c.b, m.y + m.v, c.u * m.y), c.u * m.v,
+          mul_add(c.a, m.y, c.b * m.x)};
 }
 
 /// Shafer's discount: every mass times `reliability`, the rest becomes unknown. `doubt` is 1 − reliability, rounded

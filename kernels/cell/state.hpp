@@ -52,6 +52,7 @@ EVIGRID_FN Masses<V> settled(const V& e, const V& o, const V& u) {
 /// Rules whose cell is (e, o, u).
 template <class Rule>
 struct MassCells {
+  static constexpr Paradox kParadox = paradox_of<Rule>();
   static constexpr int kPlanes = 3;
   static constexpr bool kTotalPossible = Rule::kTotalPossible;
   template <bool kConflict, class V, class S>

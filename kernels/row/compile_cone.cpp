@@ -53,7 +53,8 @@ struct Row {
 double hughes_reach(const ConeSpec& s) { return s.max_range_m + s.tolerance_m; }
 ConeLimits hughes_limits(const ConeSpec& s, const Rounding& to, double r) {
   const double tolerance = to.metres(s.tolerance_m);
-  return {std::min(r + tolerance, to.metres(s.r_max_m)), std::max(r - tolerance, 0.0)};
+  const double edge = std::max(r - tolerance, 0.0);
+  return {std::min(r + tolerance, to.metres(s.r_max_m)), edge, edge};
 }
 void hughes_constants(const ConeType& t, const Rounding& to, double, ConeReading& q) {
   q.hughes = {};
@@ -62,9 +63,18 @@ void hughes_constants(const ConeType& t, const Rounding& to, double, ConeReading
   std::copy(t.margin, t.margin + 4, q.hughes.margin);
 }
 
+/// Where the occupied mass over the empty one, 2^(d²·empty_rate − (d − R)²·occupied_rate), is below 2^-30.4 and the kernel
+/// takes it for zero (model_li2014.hpp). The smaller root of the quadratic; negative where there is none.
+double li2014_free_radius(double empty_rate, double occupied_rate, double r) {
+  const double a = occupied_rate - empty_rate, b = occupied_rate * r, c = b * r - 30.4;
+  const double root = b * b - a * c;
+  if (c <= 0 || root <= 0) return -1;
+  return c / (b + std::sqrt(root)) - 0.01;
+}
+
 double li2014_reach(const ConeSpec& s) { return s.max_range_m * (1 + 2 * s.epsilon_ratio); }
 ConeLimits li2014_limits(const ConeSpec& s, const Rounding& to, double r) {
-  return {to.cells(r * (1 + 2 * s.epsilon_ratio)), r};
+  return {to.cells(r * (1 + 2 * s.epsilon_ratio)), r, r * (1 + s.epsilon_ratio)};
 }
 void li2014_constants(const ConeType& t, const Rounding& to, double r, ConeReading& q) {
   const ConeSpec& s = t.spec;
@@ -88,6 +98,7 @@ void li2014_constants(const ConeType& t, const Rounding& to, double r, ConeReadi
   k.range_twice_inverse = rounded(1 / (2 * r));
   k.shell_slope = rounded(s.rho_i / r);
   k.shell_offset = rounded(-s.rho_i * s.epsilon_ratio);
+  q.free_radius = rounded(li2014_free_radius(empty_rate, occupied_rate, r));
 }
 
 double tanh_reach(const ConeSpec& s) { return s.max_range_m + s.width_m; }
@@ -179,9 +190,13 @@ void compile_model(const ConeType& t, double range_m, ConeReading& q) noexcept {
   const double r = to.metres(range_m);
   const ConeLimits at = row.limits(t.spec, to, r);
   row.constants(t, to, r, q);
+  const double inner = to.width(t.spec.min_range_m);
   q.outer = rounded(at.outer);
+  q.inner = rounded(inner);
+  // Far below it by any rounding, of the float distance in the kernel (2^-22 of it) or of these lines.
+  q.within_radius = rounded(std::min(at.within, at.outer) * (1 - 1e-5) - 0.01);
   q.ring[kOuter] = ring(at.outer);
-  q.ring[kInner] = ring(to.width(t.spec.min_range_m));
+  q.ring[kInner] = ring(inner);
   q.ring[kEdge] = ring(at.edge);
 }
 

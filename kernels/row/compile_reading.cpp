@@ -62,8 +62,8 @@ ConeReading compile_cone(const ConeType& t, const SensorPose& pose, double range
   const ConeSpec& s = t.spec;
   ConeReading q;
   place(q, pose, s.cell_m, t.lattice);
-  const Direction left = direction(pose.yaw_rad + s.aperture_rad / 2),
-                  right = direction(pose.yaw_rad - s.aperture_rad / 2);
+  const Direction left = edge_direction(pose.yaw_rad + s.aperture_rad / 2),
+                  right = edge_direction(pose.yaw_rad - s.aperture_rad / 2);
   q.lx = left.x, q.ly = left.y, q.rx = right.x, q.ry = right.y;
   q.reliability = static_cast<float>(s.reliability);
   q.doubt = static_cast<float>(1 - s.reliability);

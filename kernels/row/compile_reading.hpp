@@ -33,6 +33,7 @@ struct ConeType {
 /// The farthest distance at which a reading says something, and the model's own edge.
 struct ConeLimits {
   double outer, edge;
+  double within = -1;  // nearer than it every cell lies before the model's own ring; negative: the model knows no zones
 };
 /// In metres and unrounded; compile_cone puts the same on the lattice.
 ConeLimits cone_limits_m(const ConeSpec&, double range_m) noexcept;

@@ -42,6 +42,51 @@ struct Stats {
   float max_conflict = 0;
 };
 
+/// What a rule does with a source's mass on empty ∩ occupied: gives it back to both, drops it, or takes it in.
+enum Paradox : int { kGivenBack, kDropped, kConsumed };
+
+/// Parts of a cone's micro-tiles, by what all their cells are known to be beforehand. A shortcut only: the general
+/// part may hold any micro-tile, and no bit of the map depends on where one is listed.
+enum ConeZone : int {
+  kFree,    // within free_radius: certain to be empty, before the discount
+  kWithin,  // within within_radius: between the rings, so that only the two edges are left to be tested
+  kRim,     // anything
+  kConeZones
+};
+
+/// The micro-tiles of one zone: where their cells lie, and the offset of their first cell centre from the apex, exact.
+/// `cells` is readable for kConeAhead entries more: the cells of what comes next are fetched ahead.
+struct ZoneMicros {
+  float* const* cells = nullptr;
+  const float *x = nullptr, *y = nullptr;
+  int count = 0;
+};
+inline constexpr int kConeAhead = 24;
+
+/// What some rules ask of the map beside the cell and the source.
+struct RuleArgs {
+  float sign = 1;              // −1 takes a reading back, from states that are sums
+  float unknown_share = 0.5f;  // bayes: how much of m(unknown) each likelihood gets, ½ for BetP, 1 for PlP
+  float least_log_odds = -6.9f, most_log_odds = 6.9f;  // bayes
+  bool con = false, last = false;  // planes behind the sum of conflict: Con, and k of the last update
+};
+
+/// One reading on micro-tiles of any number of tiles.
+struct ConeArgs {
+  ZoneMicros zone[kConeZones];
+  int planes = 3;               // of a cell, all of them
+  bool conflict_plane = false;  // add k to the plane behind the state's
+  RuleArgs rule{};
+};
+
+/// The micro-tiles of a cone, four rows of cells at a time: in a band, columns cut[0] … cut[5] (whole numbers) part
+/// rim, within, free, within, rim. Column and band 0 begin at the offset (x0, y0) from the apex.
+struct ConeBands {
+  static constexpr int kCuts = 6;
+  int count = 0, capacity = 0;  // capacity: a multiple of 64
+  float* cut = nullptr;         // cut[c · capacity + band]
+};
+
 /// The micro-tiles of a tile for one fan: those with nothing but empty cells, those to be looked at cell by cell, and
 /// of the latter those near the apex or behind the fan, whose cells find their beams by an angle of their own. Numbers
 /// of micro-tiles are floats here, as the lanes write them. Room for whole packs behind each list.
@@ -54,27 +99,18 @@ struct FanMicros {
   alignas(64) float turn_x[kRoom], turn_y[kRoom], place[kRoom], lowest[kRoom];
 };
 
-/// What some rules ask of the map beside the cell and the source.
-struct RuleArgs {
-  float sign = 1;              // −1 takes a reading back, from states that are sums
-  float unknown_share = 0.5f;  // bayes: how much of m(unknown) each likelihood gets, ½ for BetP, 1 for PlP
-  float least_log_odds = -6.9f, most_log_odds = 6.9f;  // bayes
-  bool con = false, last = false;  // planes behind the sum of conflict: Con, and k of the last update
-};
-
-/// One reading on one tile.
+/// One fan on one tile.
 struct TileArgs {
   float* cells = nullptr;
   int planes = 3;               // of a cell, all of them
   bool conflict_plane = false;  // add k to the plane behind the state's
   RuleArgs rule{};
-  float x0 = 0, y0 = 0;                  // offset of the tile's first cell centre from the apex, exact
-  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched; ascending
-  int micro_count = 0;
-  const FanMicros* fan = nullptr;  // of a fan, instead
+  float x0 = 0, y0 = 0;  // offset of the tile's first cell centre from the apex, exact
+  const FanMicros* fan = nullptr;
 };
 
-/// Masses of one reading on the listed micro-tiles, kept apart from the map: the unfused path.
+/// Masses of one reading on the micro-tiles of its general zone, in their order, kept apart from the map: the unfused
+/// path.
 struct Measured {
   static constexpr int kParts = 6;
   alignas(64) float part[kParts][4096];  // x, y, v, z, s and what else a source knows (Pack in cell/mass.hpp)
@@ -104,12 +140,13 @@ struct DoublePlanes {
 struct KernelTable {
   std::string_view name;
   int lanes;  // floats in one vector
-  void (*fuse_cone[kRules][kConeModels])(const TileArgs&, const ConeReading&, Stats&);
+  void (*cone_bands)(const ConeReading&, float x0, float y0, ConeBands&);
+  void (*fuse_cone[kRules][kConeModels])(const ConeArgs&, const ConeReading&, Stats&);
   void (*compile_fan)(const FanType&, const SensorPose&, Fan&);
   void (*select_fan)(const FanReading&, float x0, float y0, FanMicros&);  // (x0, y0) as in TileArgs
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
-  void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
-  void (*combine_measured[kRules][kConeModels])(const TileArgs&, const Measured&, Stats&);
+  void (*measure_cone[kRules][kConeModels])(const ConeArgs&, const ConeReading&, Measured&);
+  void (*combine_measured[kRules][kConeModels])(const ConeArgs&, const Measured&, Stats&);
   /// Masses of `micros` micro-tiles, one after the other from `cells` on: 16 e, 16 o, 16 u, 16 c each, to `out`; both
   /// 64-byte aligned.
   void (*read_out[kRules])(const float* cells, int planes, int micros, float* out);

@@ -64,9 +64,11 @@ struct Contextual {
 struct ConeReading {
   std::int64_t i0 = 0, j0 = 0;           // cell whose centre the apex offset counts from
   float fx = 0, fy = 0;                  // apex = (i0 + fx, j0 + fy) in cell centres
-  float lx = 0, ly = 0, rx = 0, ry = 0;  // directions of the left and right edge
+  float lx = 0, ly = 0, rx = 0, ry = 0;  // directions of the left and right edge, multiples of 2^-24
   Ring ring[3];                          // farthest, nearest, and the model's own edge
-  float outer = 0;                       // farthest distance
+  float outer = 0, inner = 0;            // farthest and nearest distance
+  float within_radius = -1;              // cells so near lie before the model's edge and inside the outer ring
+  float free_radius = -1;                // cells so near are certain to be empty (before the discount)
   float reliability = 1, doubt = 0;      // doubt = 1 − reliability
   Contextual contextual{};
   union {                                // of the sensor's model

@@ -15,6 +15,7 @@
 #include "kernels/cell/poly.hpp"
 #include "kernels/row/fuse_cone.hpp"
 #include "kernels/row/fuse_fan.hpp"
+#include "kernels/row/measure_cone.hpp"
 #include "kernels/row/read_out.hpp"
 #include "kernels/row/tables.hpp"
 
@@ -24,7 +25,8 @@ EVIGRID_CELL_BEGIN
 template <class State, class Model>
 void fill_pair(KernelTable& t, int rule, ConeModel model) {
   t.fuse_cone[rule][model] = fuse_cone<State, Model>;
-  t.combine_measured[rule][model] = combine_measured<State, SourceOf<Model>>;
+  t.measure_cone[rule][model] = measure_cone<paradox_of<State>(), Model>;
+  t.combine_measured[rule][model] = combine_measured<State, SourceOf<paradox_of<State>(), Model>>;
 }
 
 /// The models that may hold mass on empty ∩ occupied.
@@ -54,6 +56,7 @@ template <class Rule>
 void fill_paradox_rule(KernelTable& t, int rule, int otherwise) {
   for (int model = 0; model < kConeModels; ++model) {
     t.fuse_cone[rule][model] = t.fuse_cone[otherwise][model];
+    t.measure_cone[rule][model] = t.measure_cone[otherwise][model];
     t.combine_measured[rule][model] = t.combine_measured[otherwise][model];
   }
   fill_paradox_models<MassCells<Rule>>(t, rule);

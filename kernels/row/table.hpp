@@ -7,6 +7,7 @@
 #include "kernels/cell/rule_dempster.hpp"
 #include "kernels/cell/rule_yager.hpp"
 #include "kernels/row/compile_fan.hpp"
+#include "kernels/row/cone_bands.hpp"
 #include "kernels/row/rule_table.hpp"
 #include "kernels/row/select_fan.hpp"
 
@@ -18,13 +19,7 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   t.lanes = lanes;
   t.compile_fan = compile_fan;
   t.select_fan = select_fan;
-  t.measure_cone[kHughes1992] = measure_cone<ModelHughes1992>;
-  t.measure_cone[kLi2014] = measure_cone<ModelLi2014>;
-  t.measure_cone[kOriolo1997] = measure_cone<ModelOriolo1997>;
-  t.measure_cone[kLi2006] = measure_cone<ModelLi2006>;
-  t.measure_cone[kProbability] = measure_cone<ModelProbability>;
-  t.measure_cone[kFuzzyModel] = measure_cone<ModelFuzzy>;
-  t.measure_cone[kMoravec1985] = measure_cone<ModelMoravec1985>;
+  t.cone_bands = cone_bands;
   fill_rule<Dempster>(t, kDempster);
   fill_rule<Yager>(t, kYager);
   fill_paradox_rule<Dsmh>(t, kDsmh, kYager);

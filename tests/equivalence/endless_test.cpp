@@ -34,21 +34,20 @@ TEST(Endless, AMillionUpdatesOfACellStayMasses) {
         const auto tile = std::make_unique<float[]>(256 * floats + 16);
         float* cells = tile.get();
         while (reinterpret_cast<std::uintptr_t>(cells) % 64 != 0) ++cells;
-        const std::uint8_t micro = 8 * kMicrosPerSide + 5;  // 1.0 to 1.2 m ahead
-        float* const at = cells + micro * floats;
+        const int micro = 8 * kMicrosPerSide + 5;  // 1.0 to 1.2 m ahead
+        float* const at = cells + static_cast<std::size_t>(micro) * floats;
+        float* const listed[1 + kConeAhead] = {at};
         for (std::size_t i = 0; i < floats; ++i) at[i] = planes[i / kMicroCells].vacuous;
         Stats stats;
         double worst = 0;
         for (int n = 0; n < kUpdates; ++n) {
           const ConeReading& q = readings[static_cast<std::size_t>(turns[static_cast<std::size_t>(n) % turns.size()])];
-          TileArgs args;
-          args.cells = cells;
+          const float x = static_cast<float>(static_cast<double>(4 * (micro % kMicrosPerSide) - q.i0) - q.fx);
+          const float y = static_cast<float>(static_cast<double>(4 * (micro / kMicrosPerSide) - q.j0) - q.fy);
+          ConeArgs args;
           args.planes = static_cast<int>(planes.size());
           args.conflict_plane = true;
-          args.x0 = static_cast<float>(static_cast<double>(-q.i0) - q.fx);
-          args.y0 = static_cast<float>(static_cast<double>(-q.j0) - q.fy);
-          args.micros = &micro;
-          args.micro_count = 1;
+          args.zone[kRim] = {listed, &x, &y, 1};
           table.fuse_cone[rule][model](args, q, stats);
           if (n % kLookEvery != 0 && n + 1 != kUpdates) continue;
           alignas(64) float masses[4 * kMicroCells];

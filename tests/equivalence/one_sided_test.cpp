@@ -32,6 +32,17 @@ bool same(const A& a, const B& b) {
   return yes;
 }
 
+/// The two-sided text that the one-sided rule is made of. Two-sided sources of maps have a shorter one in some rules,
+/// which rounds otherwise.
+template <class Rule>
+auto two_sided(const Cell<float>& cell, const PlainSource<float>& source) {
+  if constexpr (requires { Rule::template combine_at_large<MapState>(cell, source); }) {
+    return Rule::template combine_at_large<MapState>(cell, source);
+  } else {
+    return Rule::template combine<MapState>(cell, source);
+  }
+}
+
 TYPED_TEST(OneSidedRule, SameBitsAsAZeroAndAsTheMirrorImage) {
   std::mt19937 rng(7);
   std::uniform_real_distribution<float> u(0, 1);
@@ -41,11 +52,11 @@ TYPED_TEST(OneSidedRule, SameBitsAsAZeroAndAsTheMirrorImage) {
     const auto pick = [&] { return rng() % 4 == 0 ? special[rng() % 6] : u(rng); };
     const float a = pick(), b = std::min(pick(), 1 - a), x = pick(), v = 1 - x;
     const Cell<float> cell{a, b, std::max(1 - a - b, 1e-30f)}, swapped{b, a, cell.u};
-    const auto general = TypeParam::template combine<MapState>(cell, PlainSource<float>{x, 0.0f, v});
+    const auto general = two_sided<TypeParam>(cell, {x, 0.0f, v});
     wrong += same(general, TypeParam::template combine<MapState>(cell, OneSided<float>{x, {}, v})) ? 0 : 1;
     auto mirror = TypeParam::template combine<MapState>(swapped, OneSided<float>{x, {}, v});
     std::swap(mirror.cell.a, mirror.cell.b);
-    wrong += same(TypeParam::template combine<MapState>(cell, PlainSource<float>{0.0f, x, v}), mirror) ? 0 : 1;
+    wrong += same(two_sided<TypeParam>(cell, {0.0f, x, v}), mirror) ? 0 : 1;
     conflicts += general.k > 0 ? 1 : 0;
   }
   EXPECT_EQ(wrong, 0);

@@ -47,6 +47,12 @@ inline Direction direction(double angle_rad) {
   return d;
 }
 
+/// Of a cone's edge: components that are multiples of 2^-24.
+inline Direction edge_direction(double angle_rad) {
+  const Direction d = direction(angle_rad);
+  return {std::ldexp(std::nearbyint(std::ldexp(d.x, 24)), -24), std::ldexp(std::nearbyint(std::ldexp(d.y, 24)), -24)};
+}
+
 /// a × b. Exact: 24-bit directions times lattice offsets of at most 22 bits and a bit.
 inline double cross(double ax, double ay, double bx, double by) { return ax * by - ay * bx; }
 

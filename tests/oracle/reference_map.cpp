@@ -93,8 +93,8 @@ void ReferenceMap::cone(const Declared& declared, const Pose2& pose, float range
   const auto& lattice = declared.lattice;
   if (gate(sensor, range_m) != Gate::use) return;
   const double cell = params_.cell_m;
-  const Direction left = direction(pose.yaw_rad + sensor.aperture_rad / 2);
-  const Direction right = direction(pose.yaw_rad - sensor.aperture_rad / 2);
+  const Direction left = edge_direction(pose.yaw_rad + sensor.aperture_rad / 2);
+  const Direction right = edge_direction(pose.yaw_rad - sensor.aperture_rad / 2);
   const double range = lattice.round(range_m / cell);  // cells, as the next three
   const double nearest = std::max(lattice.round(sensor.min_range_m / cell), lattice.step());
   double farthest = 0, occupied_from = 0, width = lattice.round(arc_m(sensor) / cell);

@@ -49,7 +49,7 @@ struct Report {
   std::uint64_t cells_updated = 0;                     ///< pairs of a reading (fan: a scan) and a cell
   std::uint64_t total_conflicts = 0;                   ///< updates answered by the total-conflict policy
   float max_conflict = 0;                              ///< largest k of one update
-  CellRect touched{};                                  ///< box of tiles that changed
+  CellRect touched{};                                  ///< box of tiles that accepted readings reached
   [[nodiscard]] std::uint64_t refused_total() const noexcept;
   Report& operator+=(const Report&) noexcept;  ///< sums; touched becomes the union
 };
