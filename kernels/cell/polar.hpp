@@ -11,7 +11,9 @@ template <class V>
 struct Polar {
   V nl, nr;  // products with the normals of the left and right edge, in cells; both ≥ 0 inside
   V d2;      // squared distance, cells²
-  V edge;  // d² − T² of the model's own ring (li2014: R; hughes1992: R − tol), sign exact; before `within_radius`: none
+  // d² − T² of the model's own ring (li2014: R; hughes1992: R − tol). `excess` to a few roundings of itself and of the
+  // cells about, for models that ask; `edge` with exact sign, before `within_radius`: none.
+  V excess, edge;
 };
 
 /// dy² as two floats: exact.

@@ -15,7 +15,7 @@ const KernelTable& scalar_table() noexcept {
 }
 
 PointMass measure_point(int cone_model, const ConeReading& q, float nl, float nr, float d2, float edge) {
-  const scalar::Polar<float> p{nl, nr, d2, edge};
+  const scalar::Polar<float> p{nl, nr, d2, edge, edge};
   const auto s = cone_model == 0
                      ? scalar::widen(scalar::discount(scalar::ModelHughes1992::measure(q, p), q.reliability, q.doubt))
                      : scalar::discount(scalar::ModelLi2014::measure(q, p), q.reliability, q.doubt);
