@@ -74,10 +74,10 @@ void cone(const char* name, int model) {
     const counted::ConeLanes lanes(q);
     counted::FirstCells first;
     const float x = 38, y = 12;
-    first.fill(q, &x, &y, 1);
+    first.fill<counted::kAsksExcess<Model>>(q, &x, &y, 1);
     counted::counter = {};  // what a micro-tile is prepared with is shared by its cells
     counted::Polar<Number> at;
-    (void)counted::locate<evigrid::kernels::kWithin>(q, lanes, first, &x, &y, 0, 0, at);
+    (void)counted::locate<evigrid::kernels::kWithin, counted::kAsksExcess<Model>>(q, lanes, first, &x, &y, 0, 0, at);
     const auto source = counted::source_of<counted::paradox_of<Rule>(), Model, evigrid::kernels::kWithin>(q, at);
     auto r = Rule::template combine<counted::MapState>(kCell, source);
     benchmark::DoNotOptimize(r);

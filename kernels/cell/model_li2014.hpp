@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // li2014 (Li, Huang, Wang, Dezert 2014, eq. 8–13), unnormalised and divided by exp(−d²/(2(RρE)²)), so that two
 // exponentials are left and the tanh of the thin ignorance shell becomes a fitted cubic. λ is computed from the margins
-// to both edges (no subtraction: it must be right relatively near the edge), the depth in the shell with one Newton
-// step (the shell is steep).
+// to both edges (no subtraction: it must be right relatively near the edge), d − R with one Newton step from d² − R²
+// (roundings of d would add up in log-odds), and with one more from its exact value in the shell, which is steep.
 #pragma once
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/polar.hpp"
@@ -11,7 +11,7 @@
 EVIGRID_CELL_BEGIN
 
 struct ModelLi2014 {
-  static constexpr bool kTellsByZone = true, kHasFreeZone = true;
+  static constexpr bool kTellsByZone = true, kHasFreeZone = true, kAsksExcess = true;
   /// Equations (8) empty and (9) occupied. Below `least` y is exactly 0.
   template <class V>
   struct Main {
@@ -21,7 +21,8 @@ struct ModelLi2014 {
   static EVIGRID_FN Main<V> main_masses(const ConeReading& q, const Polar<V>& p, float least) {
     const auto& k = q.li;
     const V zero(0.0f), one(1.0f);
-    const V dr = root(p.d2) - V(k.range);
+    const V rough = root(p.d2) - V(k.range);
+    const V dr = mul_add(neg_mul_add(rough, rough + V(k.range_twice), p.excess), V(k.range_twice_inverse), rough);
     const V margin = (p.nl * p.nr) / p.d2;  // sin²α − sin²θ
     const V lambda = margin * cubic(k.lambda, margin);
     // log2 of what everything is divided by; rates are two floats: their rounding would add up over like readings

@@ -11,8 +11,10 @@ template <class V>
 struct Polar {
   V nl, nr;  // products with the normals of the left and right edge, in cells; both ≥ 0 inside
   V d2;      // squared distance, cells²
-  V edge;    // d² − T² of the model's own ring (compile_cone.cpp says which), sign exact; before `within_radius`: none
-  V outer;   // d² − L² of the farthest ring, sign exact; at most 0 inside; before `within_radius`: none
+  // d² − T² of the model's own ring (compile_cone.cpp says which). `excess` to a few roundings of itself and of the
+  // cells about, for models that ask; `edge` with exact sign, before `within_radius`: none.
+  V excess, edge;
+  V outer;  // d² − L² of the farthest ring, sign exact; at most 0 inside; before `within_radius`: none
 };
 
 /// dy² as two floats: exact.

@@ -43,6 +43,15 @@ void fit_lambda(const ConeType& t, double ratio, float (&out)[4]) {
   for (int i = 0; i < 4; ++i, power *= ratio) out[i] = rounded(t.lambda[i] * power);
 }
 
+/// Half of the angle between the edges as they are, over half of the aperture: on their grid they are off by up to
+/// 4e-8 rad each, which a narrow cone's λ would feel in every like reading.
+double opening(const ConeType& t, const ConeReading& q) {
+  const double lx = q.lx, ly = q.ly, rx = q.rx, ry = q.ry;
+  const double sine = rx * ly - ry * lx, cosine = rx * lx + ry * ly;
+  const double more = (sine * t.aperture_cos - cosine * t.aperture_sin) / std::sqrt(sine * sine + cosine * cosine);
+  return 1 + more / t.spec.aperture_rad;
+}
+
 /// r: the range in cells, on the lattice.
 struct Row {
   double (*reach_m)(const ConeSpec&);
@@ -60,7 +69,8 @@ void hughes_constants(const ConeType& t, const Rounding& to, double, ConeReading
   q.hughes = {};
   q.hughes.slope = rounded(-to.cell_m / (2 * t.spec.r_max_m));
   q.hughes.max_occupied = rounded(t.spec.max_occupied);
-  std::copy(t.margin, t.margin + 4, q.hughes.margin);
+  const double open = opening(t, q);
+  for (int i = 0; i < 4; ++i) q.hughes.margin[i] = rounded(t.margin[i] / open);
 }
 
 /// Where the occupied mass over the empty one, 2^(d²·empty_rate − (d − R)²·occupied_rate), is below 2^-30.4 and the kernel
@@ -80,7 +90,8 @@ void li2014_constants(const ConeType& t, const Rounding& to, double r, ConeReadi
   const ConeSpec& s = t.spec;
   const double c = to.cell_m, metres = r * c;
   LiConstants& k = q.li;
-  std::copy(t.lambda, t.lambda + 4, k.lambda);
+  const double open = opening(t, q);
+  for (int i = 0; i < 4; ++i) k.lambda[i] = rounded(t.lambda[i] / (open * open));
   std::copy(t.shell, t.shell + 4, k.shell);
   const double root = std::sqrt(metres);
   const double peak = s.rho_e * root * metres / (s.rho_e * root + s.rho_o);  // e^β

@@ -34,6 +34,8 @@ void fit_cubic(F f, double width, float (&out)[4]) {
 }  // namespace
 
 ConeType::ConeType(const ConeSpec& s) : spec(s) {
+  const SinCos whole = portable_sincos(s.aperture_rad);
+  aperture_cos = whole.cos, aperture_sin = whole.sin;
   const double alpha = s.aperture_rad / 2, sine = portable_sincos(alpha).sin, sine2 = sine * sine;
   lattice = lattice_steps(farthest_reach_m(s) / s.cell_m);
   fit_cubic(

@@ -26,6 +26,7 @@ struct ConeSpec {
 struct ConeType {
   ConeSpec spec{};
   double lattice = 65536;  // steps per cell
+  double aperture_cos, aperture_sin;
   float lambda[4], shell[4], margin[4], off_axis[4];
   explicit ConeType(const ConeSpec&);
 };

@@ -9,7 +9,7 @@
 EVIGRID_CELL_BEGIN
 
 /// Where the cells of one step lie, as far as its zone needs it, and which of them are in the cone.
-template <ConeZone kZone>
+template <ConeZone kZone, bool kExcess>
 EVIGRID_FN auto locate(const ConeReading& q, const ConeLanes& lanes, const FirstCells& first, const float* x,
                        const float* y, int i, int part, Polar<Lanes::V>& at) {
   using V = Lanes::V;
@@ -26,6 +26,11 @@ EVIGRID_FN auto locate(const ConeReading& q, const ConeLanes& lanes, const First
             dy = Lanes::spread(y + i) + Lanes::repeat(lanes.row, part);
     const Square<V> yy(dy);
     at.d2 = mul_add(dx, dx, yy.high);
+    if constexpr (kExcess) {  // d is rounded, and d − R with it: an occupied mass a few widths before R needs it better
+      const V middle = Lanes::spread(first.excess + i) + Lanes::repeat(lanes.square, part);
+      at.excess = mul_add(Lanes::spread(x + i), Lanes::repeat(lanes.column_twice, part),
+                          mul_add(Lanes::spread(y + i), Lanes::repeat(lanes.row_twice, part), middle));
+    }
     if constexpr (kZone == kWithin) {
       return between;
     } else {
@@ -35,6 +40,9 @@ EVIGRID_FN auto locate(const ConeReading& q, const ConeLanes& lanes, const First
     }
   }
 }
+
+template <class Model>
+inline constexpr bool kAsksExcess = requires { Model::kAsksExcess; };
 
 /// What a cone tells the cells of a step, discounted. Models that know no zones treat every cell alike.
 template <Paradox kParadox, class Model>

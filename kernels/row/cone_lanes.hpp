@@ -20,6 +20,7 @@ inline void split_product(double n, float& high, float& low) {
 /// What the sixteen cells of a micro-tile add to its first one.
 struct ConeLanes {
   alignas(64) float column[kMicroCells], row[kMicroCells];
+  alignas(64) float column_twice[kMicroCells], row_twice[kMicroCells], square[kMicroCells];
   alignas(64) float left_high[kMicroCells], left_low[kMicroCells], right_high[kMicroCells], right_low[kMicroCells];
 
   explicit ConeLanes(const ConeReading& q) {
@@ -27,6 +28,9 @@ struct ConeLanes {
       const int x = i & 3, y = i >> 2;
       column[i] = static_cast<float>(x);
       row[i] = static_cast<float>(y);
+      column_twice[i] = static_cast<float>(2 * x);
+      row_twice[i] = static_cast<float>(2 * y);
+      square[i] = static_cast<float>(x * x + y * y);
       split_product(static_cast<double>(q.ly) * x - static_cast<double>(q.lx) * y, left_high[i], left_low[i]);
       split_product(static_cast<double>(q.rx) * y - static_cast<double>(q.ry) * x, right_high[i], right_low[i]);
     }
@@ -37,17 +41,21 @@ struct ConeLanes {
 struct FirstCells {
   static constexpr int kMost = 64;
   alignas(64) float left_high[kMost], left_low[kMost], right_high[kMost], right_low[kMost];
+  alignas(64) float excess[kMost];  // d² − T² of the model's own ring
 
+  template <bool kExcess>
   void fill(const ConeReading& q, const float* x, const float* y, int count) {
     const double lx = q.lx, ly = q.ly, rx = q.rx, ry = q.ry;
+    const double ring = static_cast<double>(q.ring[kEdge].hi) + static_cast<double>(q.ring[kEdge].lo);
     for (int i = 0; i < count; ++i) {
       const double dx = x[i], dy = y[i];
       split_product(ly * dx - lx * dy, left_high[i], left_low[i]);
       split_product(rx * dy - ry * dx, right_high[i], right_low[i]);
+      if constexpr (kExcess) excess[i] = static_cast<float>(dx * dx + dy * dy - ring);
     }
     for (int i = count; i % Lanes::kMicros != 0; ++i) {
       left_high[i] = right_high[i] = -1e6f;
-      left_low[i] = right_low[i] = 0;
+      left_low[i] = right_low[i] = excess[i] = 0;
     }
   }
 };

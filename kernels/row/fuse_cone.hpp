@@ -85,7 +85,7 @@ void fuse_zone(const ConeArgs& a, const ZoneMicros& z, const ConeReading& q, con
   Lanes::V max_k = max_k_out;
   for (int begin = 0; begin < z.count; begin += FirstCells::kMost) {
     const int n = z.count - begin < FirstCells::kMost ? z.count - begin : FirstCells::kMost;
-    first.fill(q, z.x + begin, z.y + begin, n);
+    first.fill<kAsksExcess<Model>>(q, z.x + begin, z.y + begin, n);
     for (int i = 0; i < n; ++i) x[i] = z.x[begin + i], y[i] = z.y[begin + i];
     for (int i = n; i % Lanes::kMicros != 0; ++i) x[i] = y[i] = 1e6f;
     for (int i = 0; i < n; i += Lanes::kMicros) {
@@ -97,7 +97,7 @@ void fuse_zone(const ConeArgs& a, const ZoneMicros& z, const ConeReading& q, con
       const CellIo<State, kConflict> io(step.cell);
       for (int part = 0; part < kParts; ++part) {
         Polar<Lanes::V> at;
-        const auto inside = locate<kZone>(q, lanes, first, x, y, i, part, at);
+        const auto inside = locate<kZone, kAsksExcess<Model>>(q, lanes, first, x, y, i, part, at);
         if (!Lanes::any(inside)) continue;
         io.fuse(part, source_of<kParadox, Model, kZone>(q, at), inside, a.rule, stats, max_k);
       }

@@ -19,7 +19,7 @@ void measure_cone(const ConeArgs& a, const ConeReading& q, Measured& out) {
   alignas(64) float x[Lanes::kMicros], y[Lanes::kMicros];
   for (int i = 0; i < z.count; i += Lanes::kMicros) {
     const int n = z.count - i < Lanes::kMicros ? z.count - i : Lanes::kMicros;
-    first.fill(q, z.x + i, z.y + i, n);
+    first.fill<kAsksExcess<Model>>(q, z.x + i, z.y + i, n);
     for (int m = 0; m < Lanes::kMicros; ++m) {
       x[m] = m < n ? z.x[i + m] : 1e6f;
       y[m] = m < n ? z.y[i + m] : 1e6f;
@@ -27,7 +27,7 @@ void measure_cone(const ConeArgs& a, const ConeReading& q, Measured& out) {
     std::uint64_t bits = 0;
     for (int part = 0; part < kParts; ++part) {
       Polar<V> at;
-      const auto inside = locate<kRim>(q, lanes, first, x, y, 0, part, at);
+      const auto inside = locate<kRim, kAsksExcess<Model>>(q, lanes, first, x, y, 0, part, at);
       const Parts<V> s = widen(source_of<kParadox, Model, kRim>(q, at));
       alignas(64) float masses[Measured::kParts][Lanes::kLanes];
       for (int p = 0; p < Measured::kParts; ++p) {

@@ -29,7 +29,7 @@ constexpr PointMass (*kPoint[kConeModels])(const ConeReading&, const scalar::Pol
 }  // namespace
 
 PointMass measure_point(int cone_model, const ConeReading& q, float nl, float nr, float d2, float edge, float outer) {
-  return kPoint[cone_model](q, {nl, nr, d2, edge, outer});
+  return kPoint[cone_model](q, {nl, nr, d2, edge, edge, outer});
 }
 
 }  // namespace evigrid::kernels

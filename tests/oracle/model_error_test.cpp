@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -99,18 +100,26 @@ double error_of(const Case& c, double along, double beside, double heading_rad, 
   const k::ConeType type(spec);
   const k::ConeReading q = k::compile_cone(type, {0.013, 0.027, heading_rad}, c.range_m);
   const double d_middle = along * q.outer, turn = heading_rad + beside * s.aperture_rad;
-  k::TileArgs args;
-  std::vector<std::uint8_t> micros(256);
-  std::iota(micros.begin(), micros.end(), std::uint8_t{0});
-  args.micros = micros.data(), args.micro_count = 256;
-  args.x0 = static_cast<float>(std::floor(d_middle * std::cos(turn)) - 32 - q.fx);
-  args.y0 = static_cast<float>(std::floor(d_middle * std::sin(turn)) - 32 - q.fy);
+  const float x0 = static_cast<float>(std::floor(d_middle * std::cos(turn)) - 32 - q.fx);
+  const float y0 = static_cast<float>(std::floor(d_middle * std::sin(turn)) - 32 - q.fy);
+  std::array<float, 256> x, y;
+  for (std::size_t i = 0; i < 256; ++i) {
+    x[i] = x0 + static_cast<float>(i % 16 * 4);
+    y[i] = y0 + static_cast<float>(i / 16 * 4);
+  }
+  k::ConeArgs args;
+  args.zone[k::kRim] = {nullptr, x.data(), y.data(), 256};
   auto measured = std::make_unique<k::Measured>();
-  k::find_table("auto")->measure_cone[spec.model](args, q, *measured);
+  const auto& table = *k::find_table("auto");
+  for (const int rule : {k::kDsmh, k::kBayes, k::kFuzzy}) {  // the first that takes the source as the model makes it
+    if (table.measure_cone[rule][spec.model] == nullptr) continue;
+    table.measure_cone[rule][spec.model](args, q, *measured);
+    break;
+  }
 
   const Lattice lattice(reach);
-  const Direction left = direction(heading_rad + s.aperture_rad / 2),
-                  right = direction(heading_rad - s.aperture_rad / 2);
+  const Direction left = edge_direction(heading_rad + s.aperture_rad / 2),
+                  right = edge_direction(heading_rad - s.aperture_rad / 2);
   Along at;
   at.range = lattice.round(c.range_m / cell), at.cell_m = cell;
   at.nearest = std::max(lattice.round(s.min_range_m / cell), lattice.step());
@@ -121,8 +130,8 @@ double error_of(const Case& c, double along, double beside, double heading_rad, 
   for (int micro = 0; micro < 256; ++micro)
     for (int i = 0; i < 16; ++i) {
       if ((measured->inside[micro] >> i & 1) == 0) continue;
-      const double dx = static_cast<double>(args.x0) + micro % 16 * 4 + i % 4,
-                   dy = static_cast<double>(args.y0) + micro / 16 * 4 + i / 4;  // NOLINT: rows of four
+      const double dx = static_cast<double>(x0) + micro % 16 * 4 + i % 4,
+                   dy = static_cast<double>(y0) + micro / 16 * 4 + i / 4;  // NOLINT: rows of four
       at.d = std::sqrt(dx * dx + dy * dy);
       const EdgeAngles angles{std::atan2(cross(dx, dy, left.x, left.y), dx * left.x + dy * left.y),
                               std::atan2(cross(right.x, right.y, dx, dy), dx * right.x + dy * right.y)};
