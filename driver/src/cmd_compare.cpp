@@ -50,9 +50,9 @@ void add_compare(CLI::App& app) {
   command->add_option("--robots", args->robots, "robots for a scene or a --world, comma-separated");
   command->footer(
       "Writes compare.csv, compare.md, report.json and sheet.png. For scenes and plans the truth is known: precision,\n"
-      "recall and mistaken rate are given strictly and within one cell (see docs/maths.md). Pairs that do not fit are "
-      "left\n"
-      "out: probability goes with bayes, fuzzy and moravec1985 with fuzzy.\n\n"
+      "recall and mistaken rate are given strictly and within one cell (see docs/maths.md). Every rule by every "
+      "model,\n"
+      "but pairs that do not fit are left out: probability goes with bayes, fuzzy and moravec1985 with fuzzy.\n\n"
       "Examples:\n"
       "  evigrid compare default -o out/compare\n"
       "  evigrid compare intel.log.gz -o out/compare --rules dempster,pcr5 --max-range 10\n"

@@ -27,7 +27,9 @@ struct ModelLi2006 {
     // the other masses counts, not its size. The rate is two floats for the same reason.
     const V rough = d - V(k.range);
     const V dr = mul_add(neg_mul_add(rough, rough + V(k.range_twice), p.edge), d2 * inverse, rough);
-    const V f = exp2_poly(max_of(zero - max_of(dr, zero) * V(k.unknown_rate), least)), times = one + f;
+    // Not 1 − 2^y: near the axis all of m(unknown) is 1 − λ, and an ulp of 1 would be many of it.
+    const auto f = exponential(max_of(zero - max_of(dr, zero) * V(k.unknown_rate), least));
+    const V times = one + f.value;
     const V x = times * max_of(zero - p.edge * V(k.range_inverse_square), zero);
     const V dr2 = dr * dr;
     const V far_tail =
@@ -35,7 +37,7 @@ struct ModelLi2006 {
     const V y = times * settle_source(far_tail);
     const V g = mul_add(dr, V(k.both_slope), V(k.both_offset));
     const V z = times * select(p.edge <= zero, max_of(neg_mul_add(g, g, one), zero), zero);
-    const V v = one - f;
+    const V v = zero - f.less_one;
     const V sum = x + y, s = (sum + z) + v;
     return {settle_source(x * lambda), settle_source(y * lambda), mul_add(v, lambda, s * doubt), z * lambda, s,
             z / nonzero(sum)};

@@ -107,8 +107,10 @@ struct Memberships {
       const V r = V(1.0f) / m.s;
       x = x * r, y = y * r;
     }
+    const V one(1.0f);
+    x = min_of(x, one), y = min_of(y, one);  // a model's float error must not make a membership more than whole
     const V empty = kept(Fuzzy::algebraic_sum(old[0], x)), k = old[0] * y + old[1] * x;
-    if constexpr (S::kYields) y = y * (V(1.0f) - empty);  // Moravec & Elfes 1985: Occ' = O(1 − Emp)
+    if constexpr (S::kYields) y = y * (one - empty);  // Moravec & Elfes 1985: Occ' = O(1 − Emp)
     return {{empty, kept(Fuzzy::algebraic_sum(old[1], y))}, k};
   }
   template <class V>

@@ -158,7 +158,7 @@ void li2006_constants(const ConeType& t, const Rounding& to, double r, ConeReadi
   k.occupied_rate_rest = rounded(occupied_rate - k.occupied_rate);
   k.both_slope = rounded(2 / r);
   k.both_offset = rounded(4 * to.metres(s.li2006_epsilon_m) / r);
-  k.unknown_rate = rounded(4 * kLog2E * c);
+  k.unknown_rate = rounded(4 * c);
 }
 
 double moravec_reach(const ConeSpec& s) { return s.max_range_m + s.moravec_epsilon_m; }

@@ -19,8 +19,11 @@ inline constexpr double kMassBound = 2e-6;  ///< per mass; for the running confl
 /// A weight is a mass over v: where li2014 says v = 1e-4 and is off by 7e-9 the weight is off by 7e-5 of itself. Sums
 /// of logarithms see that as 7e-5 of their hundreds; the larger of two weights shows all of it.
 inline double mass_bound(evigrid::Rule rule, const evigrid::Sensor& s) {
-  const bool all = rule == evigrid::Rule::cautious && s.model == evigrid::Model::li2014 && s.reliability == 1;
-  return all ? 1e-4 : kMassBound;
+  if (rule != evigrid::Rule::cautious || s.reliability != 1) return kMassBound;
+  // li2006: v = (θ/α)² near the axis, from the difference of two floats that are a hundred times θ/α = 0.01 where v is
+  // 1e-4: each off by 6e-8 makes 1.2e-5 of v, and o/(e + o) of two such weights moves by half of that.
+  if (s.model == evigrid::Model::li2006) return 6e-6;
+  return s.model == evigrid::Model::li2014 ? 1e-4 : kMassBound;
 }
 
 struct Difference {

@@ -164,7 +164,7 @@ Source contextual(const Source& s, double if_empty, double if_occupied) {
     }
     std::copy(joined, joined + 4, m);
   }
-  return {m[1], m[2], m[0], m[3]};
+  return {m[1], m[2], m[0], m[3], s.yields};
 }
 
 }  // namespace oracle

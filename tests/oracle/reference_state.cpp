@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace oracle {
 namespace {
@@ -28,6 +29,14 @@ Masses with_ignorance(Masses m) {
   m = drop_empty<Long, 3>(cell_frame(), m);
   m[kUnknown] = std::max(m[kUnknown], kLeastUnknown);
   return m;  // its sum may be 1.0001: every use divides
+}
+
+/// What a state of whole multiples of 2^-23 has no place for: half a unit and less, of a weight or of murphy's masses.
+constexpr Long kHalfUnit = 0x1p-24L;
+Masses with_weights_kept(Masses m) {
+  for (unsigned x : {kEmpty, kOccupied})
+    if (std::log1p(m[x] / m[kUnknown]) <= kHalfUnit) m[x] = 0;
+  return m;
 }
 
 double floored(Long x, Long least) { return static_cast<double>(x < least ? 0 : x); }
@@ -56,7 +65,7 @@ std::optional<StateAnswer> update_state(const evigrid::MapParams& p, StateNumber
   switch (p.rule) {
     case Rule::dempster_log: {
       const Long k = product_conflict(s.m, closed);
-      s.m = combine<Long, 3>(Rule::dempster, frame, s.m, with_ignorance(open)).m;
+      s.m = combine<Long, 3>(Rule::dempster, frame, s.m, with_weights_kept(with_ignorance(open))).m;
       return answer(s.m, k);
     }
     case Rule::cautious: {
@@ -70,7 +79,10 @@ std::optional<StateAnswer> update_state(const evigrid::MapParams& p, StateNumber
       divide_by_sum<Long, 3>(mean);
       const Long k = s.readings == 0 ? 0 : product_conflict(mean, closed);
       s.readings += 1;
-      for (unsigned x = 0; x < mean.size(); ++x) s.m[x] += closed[x], mean[x] = s.m[x] / s.readings;
+      Masses kept = closed;
+      for (unsigned x : {kEmpty, kOccupied})
+        if (kept[x] <= kHalfUnit) kept[kUnknown] += std::exchange(kept[x], 0);
+      for (unsigned x = 0; x < mean.size(); ++x) s.m[x] += kept[x], mean[x] = s.m[x] / s.readings;
       return answer(to_the_power(mean, s.readings), k);
     }
     case Rule::bayes: {

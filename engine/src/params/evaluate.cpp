@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// One point of a model, from the scalar functions that the map runs.
+// One point of a model, from the scalar functions that the map runs, but of lengths as they are and not on a lattice:
+// there is no cell to decide on, and a rounded ε beside a point that is not rounded would give 1.00003 for 1.
 #include <cmath>
 #include <stdexcept>
 
+#include "kernels/row/compile_cone.hpp"
 #include "kernels/row/kernel_table.hpp"
 #include "model_rows.hpp"
 #include "params/table.hpp"
@@ -21,11 +23,13 @@ ModelMass evaluate(const Sensor& s, double range_m, double d_m, double theta_rad
     return {e, o, 1 - e - o, 0};
   }
   const double alpha = s.aperture_rad / 2;
-  const kernels::ConeType type(cone_spec(s, cell_m));
+  kernels::ConeType type(cone_spec(s, cell_m));
   const kernels::ConeLimits at = kernels::cone_limits_m(type.spec, range_m);
   // A hair of tolerance: a user's "on the arc" is a decimal number.
   if (std::fabs(theta_rad) > alpha + 1e-12 || d_m > at.outer + 1e-9 || d_m < s.min_range_m - 1e-9) return {};
-  const kernels::ConeReading q = kernels::compile_cone(type, {0, 0, 0}, range_m);
+  kernels::ConeReading q = kernels::compile_cone(type, {0, 0, 0}, range_m);
+  type.lattice = 0;
+  kernels::compile_model(type, range_m, q);
   const double d = d_m / cell_m;
   const auto from_ring = [&](double ring_m) {
     const double v = (d_m - ring_m) * (d_m + ring_m) / (cell_m * cell_m);
@@ -37,7 +41,7 @@ ModelMass evaluate(const Sensor& s, double range_m, double d_m, double theta_rad
       kernels::measure_point(type.spec.model, q, std::fmax(nl, 0.0f), std::fmax(nr, 0.0f), static_cast<float>(d * d),
                              from_ring(at.edge), std::fmin(from_ring(at.outer), 0.0f));
   if (model_row(s.model).says == Says::memberships) {
-    const double e = m.x, o = m.y;
+    const double e = std::fmin(m.x, 1.0f), o = std::fmin(m.y, 1.0f);  // as the rule takes them
     return {e, o, (1 - e) * (1 - o), e * o};
   }
   const double sum = static_cast<double>(m.x) + m.y + m.v + m.z;
