@@ -33,12 +33,11 @@ bool measured(const Sensor& s, const Pose2& pose, float range_m, CellIndex cell,
   spec.discount_by_lambda = s.li2006.discount_by_lambda;
   spec.reliability_if_empty = spec.reliability_if_occupied = 1;
   const k::ConeReading q = k::compile_cone(k::ConeType(spec), {pose.x_m, pose.y_m, pose.yaw_rad}, range_m);
-  std::uint8_t first = 0;
-  k::TileArgs args;
-  args.micros = &first, args.micro_count = 1;
-  args.x0 = static_cast<float>(cell.x - q.i0) - q.fx, args.y0 = static_cast<float>(cell.y - q.j0) - q.fy;
+  const float x0 = static_cast<float>(cell.x - q.i0) - q.fx, y0 = static_cast<float>(cell.y - q.j0) - q.fy;
+  k::ConeArgs args;
+  args.zone[k::kRim] = {nullptr, &x0, &y0, 1};
   auto m = std::make_unique<k::Measured>();
-  k::find_table("auto")->measure_cone[spec.model](args, q, *m);
+  k::find_table("auto")->measure_cone[k::kDsmh][spec.model](args, q, *m);  // a rule that takes all masses as they are
   if ((m->inside[0] & 1) == 0) return false;
   const double x = m->part[0][0], y = m->part[1][0], v = m->part[2][0], z = m->part[3][0], sum = x + y + v + z;
   out = {x / sum, y / sum, z / sum, v / sum};
