@@ -35,8 +35,9 @@ ModelMass evaluate(const Sensor& s, double range_m, double d_m, double theta_rad
     const double v = (d_m - ring_m) * (d_m + ring_m) / (cell_m * cell_m);
     return static_cast<float>(std::fabs(v) < 1e-5 ? 0 : v);
   };
-  const auto nl = static_cast<float>(d * std::sin(alpha - theta_rad)),
-             nr = static_cast<float>(d * std::sin(alpha + theta_rad));
+  // By the edges as they are on their grid: the model's fits are scaled to those.
+  const double dx = d * std::cos(theta_rad), dy = d * std::sin(theta_rad);
+  const auto nl = static_cast<float>(dx * q.ly - dy * q.lx), nr = static_cast<float>(dy * q.rx - dx * q.ry);
   const kernels::PointMass m =
       kernels::measure_point(type.spec.model, q, std::fmax(nl, 0.0f), std::fmax(nr, 0.0f), static_cast<float>(d * d),
                              from_ring(at.edge), std::fmin(from_ring(at.outer), 0.0f));
