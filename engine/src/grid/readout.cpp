@@ -152,6 +152,20 @@ struct Costs {
   }
 };
 
+/// The same for a micro-tile without c. A function of its own over plain arrays, so that gcc makes vectors of it.
+[[gnu::noinline]] void closed_costs(const Costs& costs, const float* __restrict o, const float* __restrict u,
+                                    int* __restrict out) noexcept {
+  const Costs c = costs;
+  const int none = static_cast<int>(c.none), lethal = static_cast<int>(c.lethal);
+  for (int i = 0; i < kCells; ++i) {
+    const float betp = o[i] + 0.5f * u[i];
+    int cost = static_cast<int>((betp - c.free_below) * c.slope + 1.5f);
+    cost = betp < c.free_below ? 0 : cost;
+    cost = betp > c.lethal_above ? lethal : cost;
+    out[i] = u[i] > c.max_unknown ? none : cost;
+  }
+}
+
 Costs occupancy(const Costmap& c) { return {c, -1, 100, 99}; }
 Costs costs(const Costmap& c) { return {c, 255, 254, 252}; }
 
@@ -162,11 +176,19 @@ void require_ordered(const Costmap& c) {
 
 template <class T>
 void render_costs(const TileStore& store, const Costs& c, CellRect rect, std::span<T> out, std::ptrdiff_t stride) {
-  fill(store, rect, out, stride, static_cast<T>(c.of(0, 0, 1, 0)), [&c](const Micro& m, T* to) {
-    int cost[kernels::kMicroCells];  // apart from `to`, which as bytes might be anything: then the loop becomes vectors
-    for (int i = 0; i < kernels::kMicroCells; ++i) cost[i] = c.of(m.e[i], m.o[i], m.u[i], m.c[i]);
-    std::copy_n(cost, kernels::kMicroCells, to);
-  });
+  const T never_seen = static_cast<T>(c.of(0, 0, 1, 0));
+  int cost[kCells];  // apart from the output, which as bytes might be anything
+  if (store.layout().planes_are_masses && store.layout().paradox < 0) {
+    fill(store, rect, out, stride, never_seen, [&](const Micro& m, T* to) {
+      closed_costs(c, m.o, m.u, cost);
+      std::copy_n(cost, kCells, to);
+    });
+  } else {
+    fill(store, rect, out, stride, never_seen, [&](const Micro& m, T* to) {
+      for (int i = 0; i < kCells; ++i) cost[i] = c.of(m.e[i], m.o[i], m.u[i], m.c[i]);
+      std::copy_n(cost, kCells, to);
+    });
+  }
 }
 
 /// A 64-bit mix per word (constants of splitmix64): enough for "are these maps the same bits?".
