@@ -22,7 +22,7 @@ ROOMS = {
     "kernels": (("kernels/",), {"highway"}),
     "engine": (("evigrid/", "kernels/row/", "scan/", "grid/", "exec/", "params/", "io/", "integrate.hpp"), {"tbb", "omp", "zstd"}),
     "engine/include": (("evigrid/",), set()),
-    "raycast": (("evigrid/raycast/", "@raycast"), {"embree", "tbb", "eigen"}),
+    "raycast": (("evigrid/raycast/", "@raycast"), {"embree", "tbb", "eigen", "highway"}),
     "raycast/include": (("evigrid/raycast/",), set()),
     "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt", "png", "yaml", "tinyobj", "tbb"}),
     "scenes/include": (("evigrid/scenes/", "evigrid/raycast/"), set()),

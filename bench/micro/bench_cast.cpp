@@ -1,100 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// Casting: cones and laser rays, in three worlds, beside a bare Embree loop over the same walls in the same binary and
-// run: rtcIntersect16 on quads, coherent, directions ready-made, no materials, no movers, no double precision. items =
-// cones or rays. Compare within one run only.
-// Usage: bench_cast --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
-// --benchmark_report_aggregates_only=true
+// Casting: cones and laser rays, beside a bare Embree loop over the same walls in the same binary and run
+// (cast_places.hpp). `cones` runs the bare loop of 64 rays a cone, Embree's point query and the bucket grid in turn in
+// every iteration and reports the medians of their ratios, so that load of the machine falls on all three alike.
+// items = cones or rays. Compare within one run only.
+// Usage: bench_cast --benchmark_filter=cones --benchmark_min_time=0.3
+//        bench_cast --benchmark_filter=fan --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
+//        --benchmark_report_aggregates_only=true
 #include <benchmark/benchmark.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <memory>
+#include <cstring>
 #include <numbers>
+#include <string>
 #include <vector>
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-#include <xmmintrin.h>
-
-#include "evigrid/raycast/noise.hpp"
+#include "cast_places.hpp"
 #include "evigrid/raycast/scene.hpp"
-#include "evigrid/scenes/scene.hpp"
 
 namespace {
 
 using namespace evigrid;
-using raycast::Point;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : seed_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * 0x1p-53 * static_cast<double>(raycast::random_bits({seed_, 0, 0, count_++}, 0) >> 11);
-  }
-
- private:
-  std::uint64_t seed_, count_ = 0;
-};
-
-/// A world, where sensors stand in it, and who moves in it.
-struct Place {
-  raycast::World world;
-  std::vector<raycast::World> movers;
-  std::vector<raycast::Placement> placements;
-  Point low, high;
-  double range_m;
-};
-
-Place room() {
-  const scenes::Scene scene = scenes::parse_scene(scenes::default_scene_text(), "default");
-  return {scene.world, {}, {}, {0.5, 0.5}, {9.5, 9.5}, 8};
-}
-
-Place segments() {
-  Random r(1);
-  Place p{{}, {}, {}, {1, 1}, {99, 99}, 8};
-  for (int i = 0; i < 20000; ++i) {
-    const Point from{r.uniform(0, 100), r.uniform(0, 100)};
-    const double angle = r.uniform(0, 2 * std::numbers::pi), size = r.uniform(0.1, 1);
-    p.world.walls.push_back({from, {from.x_m + size * std::cos(angle), from.y_m + size * std::sin(angle)}, {}});
-  }
-  return p;
-}
-
-Place fleet() {
-  Random r(2);
-  Place p = room();
-  for (int i = 0; i < 50; ++i) {
-    p.movers.push_back({.circles = {{{0, 0}, 0.2, {}}}});
-    p.placements.push_back({r.uniform(0.5, 9.5), r.uniform(0.5, 9.5), r.uniform(-3, 3)});
-  }
-  return p;
-}
-
-const Place& place(int which) {
-  static const Place places[3] = {room(), segments(), fleet()};
-  return places[which];
-}
-const raycast::Scene& scene(int which) {
-  static const auto make = [](int i) { return raycast::Scene(place(i).world, place(i).movers); };
-  static const raycast::Scene scenes[3] = {make(0), make(1), make(2)};
-  return scenes[which];
-}
-const char* const kNames[3] = {"default room", "20 000 segments", "default room, 50 movers"};
+using namespace evigrid::bench;
+using raycast::Index;
 
 constexpr int kPoses = 512, kBeams = 360, kRaysPerCone = 64;
+constexpr double kRange_m = 5;
 
-std::vector<raycast::ConeQuery> cones(const Place& p) {
+/// `ring`: 24 to a pose, 0.2 m around it; otherwise each at a place of its own.
+std::vector<raycast::ConeQuery> queries_in(const Place& p, double aperture_deg, bool ring) {
   Random r(3);
   std::vector<raycast::ConeQuery> all;
-  for (int i = 0; i < kPoses * 24; ++i)
-    all.push_back({r.uniform(p.low.x_m, p.high.x_m), r.uniform(p.low.y_m, p.high.y_m), r.uniform(-3, 3),
-                   30 * std::numbers::pi / 180, 0.1, 4});
+  double x = 0, y = 0, yaw = 0;
+  for (int i = 0; i < kPoses * 24; ++i) {
+    if (!ring || i % 24 == 0)
+      x = r.uniform(p.low.x_m, p.high.x_m), y = r.uniform(p.low.y_m, p.high.y_m), yaw = r.uniform(-3, 3);
+    const double bearing = yaw + (i % 24) * std::numbers::pi / 12, radius = ring ? 0.2 : 0;
+    all.push_back({x + radius * std::cos(bearing), y + radius * std::sin(bearing), bearing,
+                   aperture_deg * std::numbers::pi / 180, 0.1, kRange_m});
+  }
   return all;
 }
+std::vector<raycast::ConeQuery> random_cones(const Place& p) { return queries_in(p, 30, false); }
 std::vector<raycast::FanQuery> fans(const Place& p) {
   Random r(4);
   std::vector<raycast::FanQuery> all;
@@ -104,38 +54,95 @@ std::vector<raycast::FanQuery> fans(const Place& p) {
   return all;
 }
 
-void cast_cones(benchmark::State& state) {
-  const int which = static_cast<int>(state.range(0)), threads = static_cast<int>(state.range(1));
-  const auto queries = cones(place(which));
-  std::vector<raycast::Echo> echoes(queries.size());
-  for (auto _ : state) scene(which).cast_cones(queries, echoes, place(which).placements, threads);
+/// Calls work(from, to) for the cones from, …, to − 1, in one part for each thread.
+template <typename Work>
+void in_parts(std::size_t count, int threads, const Work& work) {
+  const auto part = [&](std::size_t t) {
+    const auto n = static_cast<std::size_t>(threads);
+    work(count * t / n, count * (t + 1) / n);
+  };
+  if (threads == 1) return part(0);
+  static tbb::task_arena arena(2);
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(threads), part); });
+}
+
+template <typename Work>
+double seconds(const Work& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double median(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+/// Time and rates are those of the buckets; query_x and buckets_x: how often as many cones as by the least of 64 rays.
+void cones(benchmark::State& state) {
+  const int which = static_cast<int>(state.range(0)), threads = static_cast<int>(state.range(3));
+  const Place& p = place(which);
+  const auto queries = queries_in(p, static_cast<double>(state.range(1)), state.range(2) != 0);
+  Bundle rays;
+  for (const auto& q : queries)
+    for (int i = 0; i < kRaysPerCone; ++i)
+      rays.add(q.x_m, q.y_m, q.yaw_rad + q.aperture_rad * (i / (kRaysPerCone - 1.0) - 0.5));
+  std::vector<float> ranges_m(rays.x.size()), nearest_m(queries.size());
+  std::vector<raycast::Echo> by_query(queries.size()), by_buckets(queries.size());
+  const RTCScene bare_scene = quads(which).scene;
+  const auto least_of_rays = [&](std::size_t from, std::size_t to) {
+    const unsigned modes = _mm_getcsr();
+    _mm_setcsr(modes | 0x8040u);
+    bare(bare_scene, rays, from * kRaysPerCone, to * kRaysPerCone, kRange_m, ranges_m.data());
+    for (std::size_t i = from; i < to; ++i)
+      nearest_m[i] = *std::min_element(ranges_m.begin() + static_cast<std::ptrdiff_t>(i * kRaysPerCone),
+                                       ranges_m.begin() + static_cast<std::ptrdiff_t>((i + 1) * kRaysPerCone));
+    _mm_setcsr(modes);
+  };
+  const raycast::Scene &query = scene(which, Index::embree), &buckets = scene(which, Index::buckets);
+  std::vector<double> rays_s, query_x, buckets_x;
+  for (auto _ : state) {
+    const double r = seconds([&] { in_parts(queries.size(), threads, least_of_rays); });
+    const double e = seconds([&] { query.cast_cones(queries, by_query, p.placements, threads); });
+    const double b = seconds([&] { buckets.cast_cones(queries, by_buckets, p.placements, threads); });
+    state.SetIterationTime(b);
+    rays_s.push_back(r), query_x.push_back(r / e), buckets_x.push_back(r / b);
+    benchmark::ClobberMemory();
+  }
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    if (by_query[i].status != by_buckets[i].status || by_query[i].range_m != by_buckets[i].range_m)
+      return state.SkipWithError("the indices differ");
+  const auto count = static_cast<double>(queries.size());
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(queries.size()));
-  state.SetLabel(kNames[which]);
+  state.counters["rays64"] = count / median(rays_s);
+  state.counters["query_x"] = median(query_x);
+  state.counters["buckets_x"] = median(buckets_x);
+  state.SetLabel(p.name);
 }
 
 void second_bounces(benchmark::State& state) {
   const int which = static_cast<int>(state.range(0));
-  const auto queries = cones(place(which));
+  const auto queries = random_cones(place(which));
   for (auto _ : state)
     for (const auto& q : queries)
-      benchmark::DoNotOptimize(scene(which).cast_cone_second_bounce(q, place(which).placements));
+      benchmark::DoNotOptimize(scene(which, Index::automatic).cast_cone_second_bounce(q, place(which).placements));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(queries.size()));
-  state.SetLabel(kNames[which]);
+  state.SetLabel(place(which).name);
 }
 
 /// Neighbours of a ring of 24.
 void cross_talk(benchmark::State& state) {
   const int which = static_cast<int>(state.range(0));
-  const auto queries = cones(place(which));
+  const auto queries = random_cones(place(which));
   for (auto _ : state)
     for (raycast::ConeQuery q : queries) {
       raycast::ConeQuery speaker = q;
       speaker.yaw_rad += 15 * std::numbers::pi / 180;
       speaker.x_m += 0.05;
-      benchmark::DoNotOptimize(scene(which).cross_talk(speaker, q, place(which).placements));
+      benchmark::DoNotOptimize(scene(which, Index::automatic).cross_talk(speaker, q, place(which).placements));
     }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(queries.size()));
-  state.SetLabel(kNames[which]);
+  state.SetLabel(place(which).name);
 }
 
 void single_rays(benchmark::State& state) {
@@ -144,127 +151,20 @@ void single_rays(benchmark::State& state) {
   for (auto _ : state)
     for (const auto& q : queries)
       for (int i = 0; i < q.beams; ++i)
-        benchmark::DoNotOptimize(scene(which).ray_range(q.x_m, q.y_m, q.yaw_rad + q.first_rad + i * q.step_rad,
-                                                        q.max_range_m, place(which).placements));
+        benchmark::DoNotOptimize(scene(which, Index::automatic)
+                                     .ray_range(q.x_m, q.y_m, q.yaw_rad + q.first_rad + i * q.step_rad, q.max_range_m,
+                                                place(which).placements));
   state.SetItemsProcessed(state.iterations() * kPoses * kBeams);
-  state.SetLabel(kNames[which]);
+  state.SetLabel(place(which).name);
 }
 
 void fan_rays(benchmark::State& state) {
   const int which = static_cast<int>(state.range(0)), threads = static_cast<int>(state.range(1));
   const auto queries = fans(place(which));
   std::vector<double> ranges_m(kPoses * kBeams);
-  for (auto _ : state) scene(which).cast_fans(queries, ranges_m, place(which).placements, threads);
+  for (auto _ : state) scene(which, Index::automatic).cast_fans(queries, ranges_m, place(which).placements, threads);
   state.SetItemsProcessed(state.iterations() * kPoses * kBeams);
-  state.SetLabel(kNames[which]);
-}
-
-// --- the bare loop ---------------------------------------------------------------------------------------------------
-
-/// All straight walls as quads two metres high; circles as regular polygons of 32 sides.
-struct Quads {
-  RTCDevice device = rtcNewDevice(nullptr);
-  RTCScene scene = rtcNewScene(device);
-
-  explicit Quads(const Place& p) {
-    std::vector<std::pair<Point, Point>> lines;
-    const auto closed = [&](const std::vector<Point>& v) {
-      for (std::size_t i = 0; i < v.size(); ++i) lines.emplace_back(v[i], v[(i + 1) % v.size()]);
-    };
-    const auto add = [&](const raycast::World& w, const raycast::Placement& at) {
-      for (const auto& wall : w.walls) lines.emplace_back(wall.from, wall.to);
-      for (const auto& polygon : w.polygons) closed(polygon.vertices);
-      for (const auto& box : w.boxes) {
-        const double c = std::cos(box.yaw_rad) / 2, s = std::sin(box.yaw_rad) / 2, l = box.length_m, h = box.width_m;
-        const Point m = box.centre;
-        closed({{m.x_m - c * l + s * h, m.y_m - s * l - c * h},
-                {m.x_m + c * l + s * h, m.y_m + s * l - c * h},
-                {m.x_m + c * l - s * h, m.y_m + s * l + c * h},
-                {m.x_m - c * l - s * h, m.y_m - s * l + c * h}});
-      }
-      for (const auto& circle : w.circles) {
-        std::vector<Point> v;
-        for (int i = 0; i < 32; ++i)
-          v.push_back({at.x_m + circle.centre.x_m + circle.radius_m * std::cos(i * std::numbers::pi / 16),
-                       at.y_m + circle.centre.y_m + circle.radius_m * std::sin(i * std::numbers::pi / 16)});
-        closed(v);
-      }
-    };
-    add(p.world, {});
-    for (std::size_t i = 0; i < p.movers.size(); ++i) add(p.movers[i], p.placements[i]);
-    RTCGeometry quads = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                          3 * sizeof(float), 4 * lines.size()));
-    auto* index = static_cast<unsigned*>(
-        rtcSetNewGeometryBuffer(quads, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), lines.size()));
-    for (const auto& [from, to] : lines)
-      for (const auto& [point, z] : {std::pair(from, -1.0f), {to, -1.0f}, {to, 1.0f}, {from, 1.0f}}) {
-        *v++ = static_cast<float>(point.x_m);
-        *v++ = static_cast<float>(point.y_m);
-        *v++ = z;
-      }
-    for (unsigned i = 0; i < 4 * lines.size(); ++i) index[i] = i;
-    rtcSetGeometryMask(quads, 0xffffffffu);
-    rtcCommitGeometry(quads);
-    rtcAttachGeometry(scene, quads);
-    rtcReleaseGeometry(quads);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
-    rtcCommitScene(scene);
-  }
-};
-
-const Quads& quads(int which) {
-  static const Quads all[3] = {Quads(place(0)), Quads(place(1)), Quads(place(2))};
-  return all[which];
-}
-
-/// One ray per entry, in packets of 16; `ranges_m` gets what they meet.
-struct Bundle {
-  std::vector<float> x, y, dx, dy;
-  void add(double px, double py, double angle) {
-    x.push_back(static_cast<float>(px));
-    y.push_back(static_cast<float>(py));
-    dx.push_back(static_cast<float>(std::cos(angle)));
-    dy.push_back(static_cast<float>(std::sin(angle)));
-  }
-};
-
-void bare(RTCScene scene, const Bundle& b, float range_m, float* ranges_m) {
-#if RTC_VERSION_MAJOR >= 4
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-#endif
-  alignas(64) int valid[16];
-  std::fill_n(valid, 16, -1);
-  RTCRayHit16 packet;
-  for (std::size_t i = 0; i < b.x.size(); i += 16) {
-    for (std::size_t k = 0; k < 16; ++k) {
-      packet.ray.org_x[k] = b.x[i + k];
-      packet.ray.org_y[k] = b.y[i + k];
-      packet.ray.org_z[k] = 0;
-      packet.ray.dir_x[k] = b.dx[i + k];
-      packet.ray.dir_y[k] = b.dy[i + k];
-      packet.ray.dir_z[k] = 0;
-      packet.ray.tnear[k] = 0;
-      packet.ray.tfar[k] = range_m;
-      packet.ray.time[k] = 0;
-      packet.ray.mask[k] = 0xffffffffu;
-      packet.ray.flags[k] = 0;
-      packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-      packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-    }
-#if RTC_VERSION_MAJOR >= 4
-    rtcIntersect16(valid, scene, &packet, &arguments);
-#else
-    rtcIntersect16(valid, scene, &context, &packet);
-#endif
-    for (std::size_t k = 0; k < 16; ++k) ranges_m[i + k] = packet.ray.tfar[k];
-  }
+  state.SetLabel(place(which).name);
 }
 
 void bare_embree_fan_rays(benchmark::State& state) {
@@ -277,35 +177,12 @@ void bare_embree_fan_rays(benchmark::State& state) {
   const unsigned modes = _mm_getcsr();
   _mm_setcsr(modes | 0x8040u);
   for (auto _ : state) {
-    bare(quads(which).scene, rays, static_cast<float>(place(which).range_m), ranges_m.data());
+    bare(quads(which).scene, rays, 0, rays.x.size(), static_cast<float>(place(which).range_m), ranges_m.data());
     benchmark::ClobberMemory();
   }
   _mm_setcsr(modes);
   state.SetItemsProcessed(state.iterations() * kPoses * kBeams);
-  state.SetLabel(kNames[which]);
-}
-
-/// The naive sonar: the minimum of 64 rays.
-void bare_embree_64_ray_cones(benchmark::State& state) {
-  const int which = static_cast<int>(state.range(0));
-  const auto queries = cones(place(which));
-  Bundle rays;
-  for (const auto& q : queries)
-    for (int i = 0; i < kRaysPerCone; ++i)
-      rays.add(q.x_m, q.y_m, q.yaw_rad + q.aperture_rad * (i / (kRaysPerCone - 1.0) - 0.5));
-  std::vector<float> ranges_m(rays.x.size()), nearest_m(queries.size());
-  const unsigned modes = _mm_getcsr();
-  _mm_setcsr(modes | 0x8040u);
-  for (auto _ : state) {
-    bare(quads(which).scene, rays, 4, ranges_m.data());
-    for (std::size_t i = 0; i < queries.size(); ++i)
-      nearest_m[i] = *std::min_element(ranges_m.begin() + static_cast<std::ptrdiff_t>(i * kRaysPerCone),
-                                       ranges_m.begin() + static_cast<std::ptrdiff_t>((i + 1) * kRaysPerCone));
-    benchmark::ClobberMemory();
-  }
-  _mm_setcsr(modes);
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(queries.size()));
-  state.SetLabel(kNames[which]);
+  state.SetLabel(place(which).name);
 }
 
 void places(benchmark::internal::Benchmark* b) { b->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond); }
@@ -316,9 +193,14 @@ void one_thread(benchmark::internal::Benchmark* b) {
 void two_threads(benchmark::internal::Benchmark* b) {
   b->Args({0, 2})->Args({1, 2})->Args({2, 2})->UseRealTime()->Unit(benchmark::kMillisecond);
 }
-BENCHMARK(cast_cones)->Apply(one_thread);
-BENCHMARK(cast_cones)->Apply(two_threads);
-BENCHMARK(bare_embree_64_ray_cones)->Apply(places);
+void all_cones(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"place", "aperture", "ring", "threads"})->Unit(benchmark::kMillisecond)->UseManualTime();
+  for (int which = 0; which < kPlaces; ++which)
+    for (int aperture : {15, 30})
+      for (int threads : {1, 2}) b->Args({which, aperture, 1, threads});
+  for (int which = 0; which < kPlaces; ++which) b->Args({which, 30, 0, 1});
+}
+BENCHMARK(cones)->Apply(all_cones);
 BENCHMARK(fan_rays)->Apply(one_thread);
 BENCHMARK(fan_rays)->Apply(two_threads);
 BENCHMARK(bare_embree_fan_rays)->Apply(places);

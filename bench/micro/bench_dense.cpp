@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dense combination in place (A ⊕= B, 36 bytes moved a cell) beside a memory-only loop of the same pattern in the same
-// binary and run: three planes read and written, three read. Compare cells/s within one run only.
-// Usage: bench_dense --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
-// --benchmark_report_aggregates_only=true
+// Dense combination beside memory loops of the same pattern, on the same arrays, in the same binary and run. Names:
+// CASE/RULE/cells:N/threads:T. Counters: `bytes_per_cell` as counted (reads and writes, no write-allocate),
+// `yardstick_share` = cells/s over those of the fastest memory loop of the same pattern, size and threads so far, best
+// round against best round. Each round starts from fresh masses, outside the clock: combined again and again they would
+// end in denormals. Arrays are aligned to 2 MB and ask for huge pages.
+// Usage: bench_dense [--benchmark_filter=...]; one family of sizes at a time is quickest.
 #include <benchmark/benchmark.h>
+#include <sys/mman.h>
 
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "evigrid/evigrid.hpp"
@@ -13,112 +22,273 @@
 namespace {
 
 using namespace evigrid;
+using Clock = std::chrono::steady_clock;
 
-struct Arrays {
-  std::vector<float> e, o, u;
-  Arrays(std::size_t n, float base) : e(n), o(n), u(n) {
+/// Zeroed memory on huge pages where the system has them.
+template <class T>
+class Plane {
+ public:
+  explicit Plane(std::size_t n) : bytes_((n * sizeof(T) + kHuge - 1) / kHuge * kHuge + kHuge) {
+    base_ = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (base_ == MAP_FAILED) throw std::bad_alloc();
+    const auto at = (reinterpret_cast<std::uintptr_t>(base_) + kHuge - 1) / kHuge * kHuge;
+    data_ = reinterpret_cast<T*>(at);
+    madvise(data_, bytes_ - kHuge, MADV_HUGEPAGE);
+  }
+  ~Plane() { munmap(base_, bytes_); }
+  Plane(const Plane&) = delete;
+  Plane& operator=(const Plane&) = delete;
+  T* data() { return data_; }
+
+ private:
+  static constexpr std::size_t kHuge = std::size_t{2} << 20;
+  std::size_t bytes_;
+  void* base_;
+  T* data_;
+};
+
+/// e, o, u of n cells, mixed and reproducible.
+struct Masses {
+  Plane<float> e, o, u;
+  Masses(std::size_t n, float base, unsigned salt) : e(n), o(n), u(n) {
     for (std::size_t i = 0; i < n; ++i) {
-      e[i] = base + 0.3f * static_cast<float>(i * 2654435761u >> 16 & 0xffff) / 65536;
-      o[i] = base + 0.3f * static_cast<float>(i * 40503u >> 4 & 0xffff) / 65536;
-      u[i] = 1 - e[i] - o[i];
+      e.data()[i] = base + 0.3f * static_cast<float>((i + salt) * 2654435761u >> 16 & 0xffff) / 65536;
+      o.data()[i] = base + 0.3f * static_cast<float>((i + salt) * 40503u >> 4 & 0xffff) / 65536;
+      u.data()[i] = 1 - e.data()[i] - o.data()[i];
     }
   }
+  Planes<float> planes() { return {e.data(), o.data(), u.data()}; }
+  Planes<const float> view() { return {e.data(), o.data(), u.data()}; }
 };
-struct Operands {
-  Arrays a, b;
-  bool plane_by_plane = false;
-  explicit Operands(std::size_t n) : a(n, 0.05f), b(n, 0.02f) {}
+
+constexpr std::size_t kSources = 8;
+struct Arrays {
+  std::size_t n;
+  Masses fresh, a, c;
+  std::vector<std::unique_ptr<Masses>> b;
+  Plane<std::uint16_t> fresh_e, fresh_o, ae, ao, be, bo;
+  explicit Arrays(std::size_t cells, std::size_t sources)
+      : n(cells), fresh(n, 0.05f, 0), a(n, 0.05f, 0), c(n, 0, 1), fresh_e(n), fresh_o(n), ae(n), ao(n), be(n), bo(n) {
+    for (std::size_t s = 0; s < sources; ++s)
+      b.push_back(std::make_unique<Masses>(n, 0.02f, 7 * static_cast<unsigned>(s)));
+    to_unorm16(fresh.view(), {fresh_e.data(), fresh_o.data()}, n);
+    to_unorm16(b[0]->view(), {be.data(), bo.data()}, n);
+  }
+  void renew() {
+    std::memcpy(a.e.data(), fresh.e.data(), 4 * n);
+    std::memcpy(a.o.data(), fresh.o.data(), 4 * n);
+    std::memcpy(a.u.data(), fresh.u.data(), 4 * n);
+    std::memcpy(ae.data(), fresh_e.data(), 2 * n);
+    std::memcpy(ao.data(), fresh_o.data(), 2 * n);
+  }
 };
-Operands& operands(std::size_t n) {  // kept between benchmarks: first touch is not what is measured
-  static std::size_t have = 0;
-  static std::unique_ptr<Operands> kept;
-  if (have != n) kept = std::make_unique<Operands>(n), have = n;
+Arrays& arrays(std::size_t n, std::size_t sources = 1) {  // kept: first touch is not what is measured
+  static std::unique_ptr<Arrays> kept;
+  if (!kept || kept->n != n || kept->b.size() < sources) {
+    kept.reset();
+    kept = std::make_unique<Arrays>(n, sources);
+  }
   return *kept;
 }
 
+/// Compiled for the widest vectors of the processor, as the kernels are: a yardstick must not be the weaker side.
+#define EVIGRID_WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+using Words = std::uint32_t;  // plain sums: nothing but memory is measured
+
+/// a += b on `streams` pairs of planes, four lines of each in turn.
+EVIGRID_WIDEST void add_in_bursts(Words* const* a, const Words* const* b, std::size_t streams, std::size_t n) {
+  constexpr std::size_t kBurst = 64;
+  for (std::size_t i = 0; i < n; i += kBurst) {
+    for (std::size_t s = 0; s < streams; ++s) {
+      Words* __restrict x = a[s] + i;
+      const Words* __restrict y = b[s] + i;
+      for (std::size_t j = 0; j < kBurst; ++j) x[j] += y[j];
+    }
+  }
+}
+/// The same, a plane at a time.
+EVIGRID_WIDEST void add_plane(Words* __restrict a, const Words* __restrict b, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) a[i] += b[i];
+}
+EVIGRID_WIDEST void triad(float* __restrict a, const float* __restrict b, const float* __restrict c, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + 3.0f * c[i];
+}
+EVIGRID_WIDEST void copy(float* __restrict a, const float* __restrict b, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) a[i] = b[i];
+}
+
+std::unique_ptr<Executor> threads_of(std::int64_t n) {
+  return n == 1 ? make_serial_executor() : make_spinning_executor(static_cast<int>(n));
+}
+
 constexpr std::size_t kBlock = 1 << 16;
-
-/// Compiled for the widest vectors of the processor, as the kernels are: the yardstick must not be the weaker side.
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) void subtract(float* __restrict a,
-                                                                                            const float* __restrict b,
-                                                                                            std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) a[i] = b[i] - a[i];
+/// In the blocks that combine() takes, over the same executor.
+template <class Body>
+void in_blocks(Executor& executor, std::size_t n, const Body& body) {
+  struct Context {
+    const Body& body;
+    std::size_t n;
+  } context{body, n};
+  executor.run(
+      static_cast<std::int64_t>((n + kBlock - 1) / kBlock),
+      [](void* p, std::int64_t i, int) {
+        const auto& c = *static_cast<Context*>(p);
+        const std::size_t begin = static_cast<std::size_t>(i) * kBlock;
+        c.body(begin, std::min(kBlock, c.n - begin));
+      },
+      &context);
 }
 
-/// The kernels' pattern: six streams walked side by side.
-__attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"))) void subtract_planes(
-    float* __restrict ae, float* __restrict ao, float* __restrict au, const float* __restrict be,
-    const float* __restrict bo, const float* __restrict bu, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    ae[i] = be[i] - ae[i];
-    ao[i] = bo[i] - ao[i];
-    au[i] = bu[i] - au[i];
-  }
-}
+/// The fastest loop of each pattern, size and number of threads, in cells (triad, copy: elements) per second.
+std::map<std::string, double> fastest_loop;
 
-void memory_loop(benchmark::State& state, bool plane_by_plane) {
+/// Times `round` on fresh masses. `loop`: this is a yardstick of that pattern; else it is compared with it.
+template <class Round>
+void measure(benchmark::State& state, const std::string& pattern, bool loop, double bytes, std::size_t sources,
+             double scale, const Round& round) {
   const auto n = static_cast<std::size_t>(state.range(0));
-  Operands& x = operands(n);
-  x.plane_by_plane = plane_by_plane;
-  const auto executor = make_tbb_executor(static_cast<int>(state.range(1)));
+  Arrays& x = arrays(n, sources);
+  const auto executor = threads_of(state.range(1));
+  const int repeats = static_cast<int>(std::max<std::size_t>(1, (std::size_t{1} << 18) / n));
+  double best = 0;
+  x.renew();
+  round(x, *executor);
   for (auto _ : state) {
-    executor->run(
-        static_cast<std::int64_t>((n + kBlock - 1) / kBlock),
-        [](void* p, std::int64_t i, int) {
-          auto& q = *static_cast<Operands*>(p);
-          const std::size_t begin = static_cast<std::size_t>(i) * kBlock, end = std::min(begin + kBlock, q.a.e.size());
-          const std::size_t count = end - begin;
-          float *ae = q.a.e.data() + begin, *ao = q.a.o.data() + begin, *au = q.a.u.data() + begin;
-          const float *be = q.b.e.data() + begin, *bo = q.b.o.data() + begin, *bu = q.b.u.data() + begin;
-          if (q.plane_by_plane) {
-            subtract(ae, be, count);
-            subtract(ao, bo, count);
-            subtract(au, bu, count);
-          } else {
-            subtract_planes(ae, ao, au, be, bo, bu, count);
-          }
-        },
-        &x);
-    benchmark::ClobberMemory();
+    x.renew();
+    if (repeats > 1) round(x, *executor);  // in cache
+    const auto begin = Clock::now();
+    for (int i = 0; i < repeats; ++i) round(x, *executor);
+    const double s = std::chrono::duration<double>(Clock::now() - begin).count() / repeats;
+    state.SetIterationTime(s);
+    best = std::max(best, static_cast<double>(n) / s);
   }
+  const std::string key = pattern + "/" + std::to_string(n) + "/" + std::to_string(state.range(1));
+  if (loop) {
+    fastest_loop[key] = std::max(fastest_loop[key], best);
+  } else if (const auto at = fastest_loop.find(key); at != fastest_loop.end()) {
+    state.counters["yardstick_share"] = scale * best / at->second;
+  }
+  state.counters["best_cells_per_s"] = best;
+  state.counters["bytes_per_cell"] = bytes;
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(n) * 36);
-  state.SetLabel("memory loop, threads " + std::to_string(state.range(1)));
-  operands(1), operands(n);  // the loop leaves no masses behind: fresh operands for the next
 }
 
-void combine_in_place(benchmark::State& state, Rule rule) {
-  const auto n = static_cast<std::size_t>(state.range(0));
-  Operands& x = operands(n);
-  const auto executor = make_tbb_executor(static_cast<int>(state.range(1)));
-  const Planes<float> a{x.a.e.data(), x.a.o.data(), x.a.u.data()};
-  for (auto _ : state) {
-    combine(rule, {a.e, a.o, a.u}, {x.b.e.data(), x.b.o.data(), x.b.u.data()}, a, nullptr, n, Kernel::automatic,
-            executor.get());
-    benchmark::ClobberMemory();
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(n) * 36);
-  state.SetLabel(std::string(name(rule)) + ", " + std::string(resolve_kernel_name(Kernel::automatic)) + ", threads " +
-                 std::to_string(state.range(1)));
+void loop_in_place(benchmark::State& state, bool plane_by_plane) {
+  measure(state, "in_place", true, 36, 1, 1, [&](Arrays& x, Executor& executor) {
+    in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) {
+      Masses& b = *x.b[0];
+      const auto word = [&](float* p) { return reinterpret_cast<Words*>(p) + at; };
+      Words* to[3] = {word(x.a.e.data()), word(x.a.o.data()), word(x.a.u.data())};
+      const Words* from[3] = {word(b.e.data()), word(b.o.data()), word(b.u.data())};
+      if (plane_by_plane) {
+        for (int p = 0; p < 3; ++p) add_plane(to[p], from[p], n);
+      } else {
+        add_in_bursts(to, from, 3, n / 64 * 64);
+      }
+    });
+  });
 }
 
-void sizes(benchmark::internal::Benchmark* b) {
-  for (const int threads : {1, 2}) b->Args({16 << 20, threads});
-  b->UseRealTime()->Unit(benchmark::kMillisecond);
+void loop_unorm16(benchmark::State& state) {
+  measure(state, "unorm16", true, 12, 1, 1, [&](Arrays& x, Executor& executor) {
+    in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) {
+      const auto word = [&](std::uint16_t* p) { return reinterpret_cast<Words*>(p + at); };
+      add_plane(word(x.ae.data()), word(x.be.data()), n / 2);
+      add_plane(word(x.ao.data()), word(x.bo.data()), n / 2);
+    });
+  });
 }
-BENCHMARK_CAPTURE(memory_loop, side_by_side, false)->Apply(sizes);
-BENCHMARK_CAPTURE(memory_loop, plane_by_plane, true)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, dempster, Rule::dempster)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, pcr2, Rule::pcr2)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, pcr5, Rule::pcr5)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, germ_pcr2, Rule::germ_pcr2)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, yager, Rule::yager)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, pcr1, Rule::pcr1)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, pcr4, Rule::pcr4)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, disjunctive, Rule::disjunctive)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, cautious, Rule::cautious)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, murphy, Rule::murphy)->Apply(sizes);
-BENCHMARK_CAPTURE(combine_in_place, bayes, Rule::bayes)->Apply(sizes);
+
+/// STREAM: 12 bytes an element.
+void loop_triad(benchmark::State& state) {
+  measure(state, "out_of_place", true, 12, 1, 1, [&](Arrays& x, Executor& executor) {
+    in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) {
+      triad(x.c.e.data() + at, x.a.e.data() + at, x.b[0]->e.data() + at, n);
+    });
+  });
+}
+void loop_copy(benchmark::State& state) {
+  measure(state, "copy", true, 8, 1, 1, [&](Arrays& x, Executor& executor) {
+    in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) { copy(x.c.e.data() + at, x.a.e.data() + at, n); });
+  });
+}
+
+void in_place(benchmark::State& state, Rule rule) {
+  measure(state, "in_place", false, 36, 1, 1, [&](Arrays& x, Executor& executor) {
+    combine(rule, x.a.view(), x.b[0]->view(), x.a.planes(), nullptr, x.n, Kernel::automatic, &executor);
+  });
+}
+/// 36 bytes a cell against the 12 of a triad's element.
+void out_of_place(benchmark::State& state, Rule rule) {
+  measure(state, "out_of_place", false, 36, 1, 3, [&](Arrays& x, Executor& executor) {
+    combine(rule, x.a.view(), x.b[0]->view(), x.c.planes(), nullptr, x.n, Kernel::automatic, &executor);
+  });
+}
+void unorm16_in_place(benchmark::State& state, Rule rule) {
+  measure(state, "unorm16", false, 12, 1, 1, [&](Arrays& x, Executor& executor) {
+    combine(rule, Unorm16Planes<const std::uint16_t>{x.ae.data(), x.ao.data()}, {x.be.data(), x.bo.data()},
+            {x.ae.data(), x.ao.data()}, nullptr, x.n, Kernel::automatic, &executor);
+  });
+}
+
+/// Eight sources into the state: cells count once. `one_pass_share` of the passes is the gain.
+void eight_passes(benchmark::State& state, Rule rule) {
+  measure(state, std::string("sources_") + std::string(name(rule)), true, 8 * 36, kSources, 1,
+          [&](Arrays& x, Executor& executor) {
+            for (const auto& b : x.b)
+              combine(rule, x.a.view(), b->view(), x.a.planes(), nullptr, x.n, Kernel::automatic, &executor);
+          });
+}
+void one_pass(benchmark::State& state, Rule rule) {
+  measure(state, std::string("sources_") + std::string(name(rule)), false, (kSources + 2) * 12, kSources, 1,
+          [&](Arrays& x, Executor& executor) {
+            std::vector<Planes<const float>> all{x.a.view()};
+            for (const auto& b : x.b) all.push_back(b->view());
+            combine(rule, std::span<const Planes<const float>>(all), x.a.planes(), nullptr, x.n, Kernel::automatic,
+                    &executor);
+          });
+}
+
+constexpr std::int64_t kLarge[] = {16 << 20, 64 << 20}, kCached[] = {1 << 10, 16 << 10, 50'000, 1 << 20};
+
+void plan(benchmark::internal::Benchmark* b, std::int64_t cells, std::int64_t threads, int rounds) {
+  b->Args({cells, threads})->ArgNames({"cells", "threads"})->UseManualTime()->Unit(benchmark::kMillisecond);
+  b->Iterations(rounds);
+}
+
+void add(const std::string& label, Rule rule, void (*run)(benchmark::State&, Rule), std::int64_t cells,
+         std::int64_t threads, int rounds) {
+  plan(benchmark::RegisterBenchmark((label + "/" + std::string(name(rule))).c_str(), run, rule), cells, threads,
+       rounds);
+}
+
+void register_all() {
+  std::vector<Rule> rules;  // one of those that share a kernel
+  for (const Rule rule : all_rules()) {
+    if (same_as(rule) == rule) rules.push_back(rule);
+  }
+  const auto families = [&](std::int64_t cells, std::int64_t threads, int rounds, bool many) {
+    plan(benchmark::RegisterBenchmark("loop_in_place/bursts", loop_in_place, false), cells, threads, rounds);
+    plan(benchmark::RegisterBenchmark("loop_in_place/plane_by_plane", loop_in_place, true), cells, threads, rounds);
+    for (const Rule rule : rules) add("in_place", rule, in_place, cells, threads, rounds);
+    plan(benchmark::RegisterBenchmark("loop_triad", loop_triad), cells, threads, rounds);
+    plan(benchmark::RegisterBenchmark("loop_copy", loop_copy), cells, threads, rounds);
+    for (const Rule rule : rules) add("out_of_place", rule, out_of_place, cells, threads, rounds);
+    plan(benchmark::RegisterBenchmark("loop_unorm16", loop_unorm16), cells, threads, rounds);
+    for (const Rule rule : rules) {
+      if (rule != Rule::conjunctive) add("unorm16", rule, unorm16_in_place, cells, threads, rounds);
+    }
+    if (!many) return;
+    for (const Rule rule : {Rule::dempster, Rule::pcr5}) {
+      add("eight_passes", rule, eight_passes, cells, threads, rounds);
+      add("one_pass", rule, one_pass, cells, threads, rounds);
+    }
+  };
+  for (const std::int64_t threads : {1, 2}) families(kLarge[0], threads, 9, true);
+  for (const std::int64_t threads : {1, 2}) families(kLarge[1], threads, 5, false);
+  for (const std::int64_t cells : kCached) families(cells, 1, 31, false);
+}
+
+const bool registered = (register_all(), true);
 
 }  // namespace

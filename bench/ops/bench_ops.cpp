@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Operations of one cell update, counted by running the kernels' text on lane_count.hpp: rows of no time, counters
 // `flop` and `slow` (quotients and roots among them). The roofline takes them. Only what a cell inside the footprint
-// needs: not the lanes that lie outside, not what a reading or a row of cells is prepared with.
+// needs: not the lanes that lie outside, not what a reading or a micro-tile is prepared with; of a cone a cell between
+// the rings, as nearly all are.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -11,6 +12,7 @@
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/model_hughes1992.hpp"
 #include "kernels/cell/model_li2014.hpp"
+#include "kernels/cell/one_sided.hpp"
 #include "kernels/cell/polar.hpp"
 #include "kernels/cell/poly.hpp"
 #include "kernels/cell/rule_batch.hpp"
@@ -19,6 +21,7 @@
 #include "kernels/cell/rule_pcr14.hpp"
 #include "kernels/cell/rule_yager.hpp"
 #include "kernels/row/compile_reading.hpp"
+#include "kernels/row/cone_cells.hpp"
 
 namespace {
 
@@ -50,12 +53,12 @@ void dense(const char* name) {
   });
 }
 template <class Rule>
-void fan(const char* name) {  // distance, two masses that fall with it, the rest, the rule
+void fan(const char* name) {  // distance, the mass that falls with it, the rest, the rule; one-sided
   add(std::string("fan/") + name, [] {
     const Number dx(20.0f), dy(7.0f), one(1.0f);
     const Number f = counted::neg_mul_add(counted::root(counted::mul_add(dx, dx, dy * dy)), Number(0.001f), one);
-    const Number x = Number(0.6f) * f, y = Number(0.8f) * f;
-    auto r = Rule::template combine<counted::MapState>(kCell, counted::PlainSource<Number>{x, y, one - (x + y)});
+    const Number x = Number(0.6f) * f;
+    auto r = Rule::template combine<counted::MapState>(kCell, counted::OneSided<Number>{x, {}, one - x});
     benchmark::DoNotOptimize(r);
   });
 }
@@ -68,10 +71,14 @@ void cone(const char* name, int model) {
     spec.r_max_m = 7.62, spec.max_occupied = 0.98, spec.tolerance_m = 0.15;
     spec.rho_e = 0.35, spec.rho_o = 0.1, spec.rho_c = 80, spec.rho_i = 10, spec.epsilon_ratio = 0.01;
     const auto q = compile_cone(evigrid::kernels::ConeType(spec), {0, 0, 0.3}, 2.5);
-    const auto row = counted::row_terms(q, Number(10.0f));
-    counted::counter = {};  // the row's terms are shared by its cells
-    const auto at = counted::locate(q, Number(40.0f), row);
-    const auto source = counted::discount(Model::measure(q, at.polar), Number(q.reliability), Number(q.doubt));
+    const counted::ConeLanes lanes(q);
+    counted::FirstCells first;
+    const float x = 38, y = 12;
+    first.fill<counted::kAsksExcess<Model>>(q, &x, &y, 1);
+    counted::counter = {};  // what a micro-tile is prepared with is shared by its cells
+    counted::Polar<Number> at;
+    (void)counted::locate<evigrid::kernels::kWithin, counted::kAsksExcess<Model>>(q, lanes, first, &x, &y, 0, 0, at);
+    const auto source = counted::source_of<counted::paradox_of<Rule>(), Model, evigrid::kernels::kWithin>(q, at);
     auto r = Rule::template combine<counted::MapState>(kCell, source);
     benchmark::DoNotOptimize(r);
   });

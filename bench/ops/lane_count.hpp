@@ -50,4 +50,12 @@ inline Number scale_by_magic(Number p, Number magic) {
       std::bit_cast<float>(std::bit_cast<std::uint32_t>(p.v) + (std::bit_cast<std::uint32_t>(magic.v) << 23)));
 }
 
+/// One cell a step.
+struct Lanes {
+  using V = Number;
+  static constexpr int kMicros = 1;
+  static V spread(const float* per_micro) { return Number(*per_micro); }
+  static V repeat(const float* sixteen, int part) { return Number(sixteen[part]); }
+};
+
 EVIGRID_CELL_END

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iostream>
 #include <limits>
+#include <span>
+#include <type_traits>
 
 #include "commands.hpp"
 #include "csv_masses.hpp"
@@ -46,73 +48,6 @@ struct Masses {
   }
 };
 
-template <class T>
-struct Work {
-  Rule rule;
-  Kernel kernel;
-  Executor* executor;
-  std::vector<T> k = {};  // of one step
-  std::uint64_t total = 0;
-
-  void combine(Rule by, const Masses<T>& a, const Masses<T>& b, Masses<T>& c) {
-    k.resize(a.e.size());
-    if constexpr (std::is_same_v<T, float>) {
-      total += evigrid::combine(by, a.planes(), b.planes(), c.planes(), k.data(), k.size(), kernel, executor);
-    } else {
-      total += evigrid::combine(by, a.planes(), b.planes(), c.planes(), k.data(), k.size(), executor);
-    }
-  }
-};
-
-template <class T>
-void add_up(std::vector<T>& sum, const std::vector<T>& k) {
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += k[i];
-}
-
-/// One source after the other, in order.
-template <class T>
-void in_order(const MassRows& rows, Work<T>& work, Masses<T>& out, std::vector<T>& k) {
-  Masses<T> state(rows.sources[0]);
-  for (std::size_t s = 1; s < rows.sources.size(); ++s) {
-    work.combine(work.rule, state, Masses<T>(rows.sources[s]), out);
-    add_up(k, work.k);
-    if (s + 1 < rows.sources.size()) state = out;
-  }
-}
-
-/// Murphy's rule for s > 2 sources: their mean with itself, s − 1 times, by Dempster's rule. A source's c is dropped.
-template <class T>
-void mean_of_sources(const MassRows& rows, Work<T>& work, Masses<T>& out, std::vector<T>& k) {
-  const std::size_t n = rows.rows();
-  Masses<T> mean(n, false), vacuous(n, false);
-  std::fill(vacuous.u.begin(), vacuous.u.end(), T{1});
-  const T share = T{1} / static_cast<T>(rows.sources.size());
-  for (const SourceMasses& source : rows.sources) {
-    Masses<T> one(source);
-    if (!one.c.empty()) work.combine(Rule::dempster, one, vacuous, one);  // drops c and divides by the sum of the rest
-    for (std::size_t i = 0; i < n; ++i) {
-      mean.e[i] += one.e[i] * share;
-      mean.o[i] += one.o[i] * share;
-      mean.u[i] += one.u[i] * share;
-    }
-  }
-  out = mean;
-  for (std::size_t s = 1; s < rows.sources.size(); ++s) {
-    work.combine(Rule::dempster, out, mean, out);
-    add_up(k, work.k);
-  }
-}
-
-/// All sources of a row at once.
-template <class T>
-void jointly(const MassRows& rows, Rule rule, Executor* executor, Masses<T>& out, std::vector<T>& k) {
-  std::vector<Masses<T>> sources;
-  for (const SourceMasses& s : rows.sources) sources.emplace_back(s);
-  std::vector<Planes<const T>> views;
-  for (const Masses<T>& m : sources) views.push_back(m.planes());
-  combine_joint(rule, views, out.planes(), k.data(), k.size(), executor);
-}
-
 /// Whether this many sources of a row are combined all at once.
 bool is_joint(const Args& args, Rule rule) {
   if (args.sources <= 2 || args.in_order || !has_joint_form(rule)) return false;
@@ -127,19 +62,22 @@ bool is_joint(const Args& args, Rule rule) {
 template <class T>
 std::string combined(const MassRows& rows, Rule rule, Kernel kernel, Executor* executor, bool joint) {
   const std::size_t n = rows.rows();
-  Work<T> work{rule, kernel, executor};
+  const std::vector<Masses<T>> sources(rows.sources.begin(), rows.sources.end());
+  std::vector<Planes<const T>> views;
+  for (const Masses<T>& source : sources) views.push_back(source.planes());
+  const std::span<const Planes<const T>> all(views);
   Masses<T> out(n, true);
   std::vector<T> conflict(n);
+  std::uint64_t total = 0;
   if (joint) {
-    jointly(rows, rule, executor, out, conflict);
-  } else if (rule == Rule::murphy && rows.sources.size() > 2) {
-    mean_of_sources(rows, work, out, conflict);
-    out.c.assign(n, T{0});
+    combine_joint(rule, all, out.planes(), conflict.data(), n, executor);
+  } else if constexpr (std::is_same_v<T, float>) {
+    total = combine(rule, all, out.planes(), conflict.data(), n, kernel, executor);
   } else {
-    in_order(rows, work, out, conflict);
+    total = combine(rule, all, out.planes(), conflict.data(), n, executor);
   }
-  if (work.total > 0) {
-    fmt::print(stderr, "evigrid: {} of {} {} in total conflict, answered by the rule's policy (--help)\n", work.total,
+  if (total > 0) {
+    fmt::print(stderr, "evigrid: {} of {} {} in total conflict, answered by the rule's policy (--help)\n", total,
                n * (rows.sources.size() - 1), rows.sources.size() > 2 ? "combinations" : "rows");
   }
   constexpr int kDigits = std::numeric_limits<T>::max_digits10;
@@ -191,7 +129,7 @@ void add_combine(CLI::App& app) {
       "more than two sources: one after the other, as a map fuses its readings, for rules with a joint form");
   command->add_option("--kernel", args->kernel, "auto, scalar, avx2 or avx512; the result is the same")
       ->capture_default_str();
-  command->add_option("--executor", args->executor, "serial, tbb or openmp; the result is the same")
+  command->add_option("--executor", args->executor, "serial, tbb, openmp or spin; the result is the same")
       ->capture_default_str();
   command->add_option("--threads", args->threads, "worker threads; 0: as many as the machine has")
       ->capture_default_str();

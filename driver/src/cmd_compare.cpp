@@ -40,7 +40,8 @@ void add_compare(CLI::App& app) {
   add_mapping_options(*command, o.mapping);
   command->remove_option(command->get_option("--rule"));
   command->remove_option(command->get_option("--model"));
-  for (const char* single : {"--layers", "--costmap", "--pgm-mode"}) command->remove_option(command->get_option(single));
+  for (const char* single : {"--layers", "--costmap", "--pgm-mode"})
+    command->remove_option(command->get_option(single));
   command
       ->add_option("--rules", args->rules, "comma-separated, or all (one of those that coincide): " + map_rule_names())
       ->capture_default_str();
@@ -49,7 +50,9 @@ void add_compare(CLI::App& app) {
   command->add_option("--robots", args->robots, "robots for a scene or a --world, comma-separated");
   command->footer(
       "Writes compare.csv, compare.md, report.json and sheet.png. For scenes and plans the truth is known: precision,\n"
-      "recall and mistaken rate are given strictly and within one cell (see docs/maths.md).\n\n"
+      "recall and mistaken rate are given strictly and within one cell (see docs/maths.md). Every rule by every "
+      "model,\n"
+      "but pairs that do not fit are left out: probability goes with bayes, fuzzy and moravec1985 with fuzzy.\n\n"
       "Examples:\n"
       "  evigrid compare default -o out/compare\n"
       "  evigrid compare intel.log.gz -o out/compare --rules dempster,pcr5 --max-range 10\n"

@@ -3,6 +3,7 @@
 // the policies mean: docs/cycle.md.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <optional>
 
@@ -107,6 +108,12 @@ Json search(const FleetWorld& world, const FleetOptions& o, Results& results) {
   const std::int64_t found = find_max({o.robots, o.most_robots, kTolerance}, passes);
   results.say(found == 0 ? "not even one robot keeps the deadline\n"
                          : fmt::format("largest fleet: {} robots\n", found));
+  if (OutDir* out = results.dir()) {
+    std::vector<SweepPoint> points;
+    for (const Json& trial : trials) points.push_back({trial["robots"].get<double>(), trial});
+    std::sort(points.begin(), points.end(), [](const SweepPoint& a, const SweepPoint& b) { return a.value < b.value; });
+    out->write("trials.png", png(draw_sweep("robots", points, o.deadline_ms)), {});
+  }
   Json report = best.is_null() ? Json::object() : best;
   report["largest_fleet"] = found;
   report["tolerance"] = kTolerance;

@@ -37,7 +37,7 @@ Json facts() {
   out["compiler"] = EVIGRID_COMPILER;
   out["kernels_available"] = kernels;
   out["kernel_chosen"] = resolve_kernel_name(Kernel::automatic);
-  out["executors"] = {"serial", "tbb", "openmp"};
+  out["executors"] = {"serial", "tbb", "openmp", "spin"};
   out["threads"] = make_tbb_executor(0)->concurrency();
   out["hardware_threads"] = std::thread::hardware_concurrency();
   out["rules"] = rules;
@@ -61,31 +61,17 @@ Json sensor_facts(const Sensor& s) {
       {"max_range_m", s.max_range_m},
       {"no_return_m", s.no_return_m},
       {"reliability", s.reliability}};
-  switch (s.model) {
-    case Model::beam:
-      out["beams"] = s.beams;
-      out["first_beam_rad"] = s.first_beam_rad;
-      out["beam_step_rad"] = s.beam_step_rad;
-      out["clear_no_return"] = s.clear_no_return;
-      out["empty"] = s.beam.empty;
-      out["occupied"] = s.beam.occupied;
-      out["empty_margin_m"] = s.beam.empty_margin_m;
-      out["occupied_half_width_m"] = s.beam.occupied_half_width_m;
-      break;
-    case Model::hughes1992:
-      out["aperture_rad"] = s.aperture_rad;
-      out["r_max_m"] = s.hughes.r_max_m;
-      out["max_occupied"] = s.hughes.max_occupied;
-      out["tolerance_m"] = s.hughes.tolerance_m;
-      break;
-    case Model::li2014:
-      out["aperture_rad"] = s.aperture_rad;
-      out["rho_e"] = s.li.rho_e;
-      out["rho_o"] = s.li.rho_o;
-      out["rho_c"] = s.li.rho_c;
-      out["rho_i"] = s.li.rho_i;
-      out["epsilon_ratio"] = s.li.epsilon_ratio;
-      break;
+  if (s.model == Model::beam) {
+    out["beams"] = s.beams;
+    out["first_beam_rad"] = s.first_beam_rad;
+    out["beam_step_rad"] = s.beam_step_rad;
+    out["clear_no_return"] = s.clear_no_return;
+  } else {
+    out["aperture_rad"] = s.aperture_rad;
+  }
+  for (const ModelParam& p : model_params(s.model)) {
+    const double value = *model_param(s, s.model, p.name);
+    out[std::string(p.name)] = p.is_switch ? Json(value != 0) : Json(value);
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include "error.hpp"
 #include "evigrid/sensor.hpp"
 #include "log/line_reader.hpp"
+#include "model_options.hpp"
 #include "options.hpp"
 
 namespace evigrid::driver {
@@ -23,6 +24,8 @@ struct Args {
   std::vector<std::string> at;
   double aperture_deg = 25, reliability = 1;
   std::optional<double> max_range_m;
+  std::vector<std::string> params;
+  double cell_m = 0.05;
   bool grid = false;
 };
 
@@ -61,6 +64,10 @@ void evaluate_points(const Args& args) {
     s.first_beam_rad = -90 * kDeg;
     s.beam_step_rad = 1 * kDeg;
   }
+  const auto settings = parse_settings(args.params, s.model);
+  require_used(settings, {args.model});
+  apply_settings(settings, s);
+  if (!(args.cell_m >= 1e-4 && args.cell_m <= 100)) throw InputError("--cell: must be within [0.0001, 100] m");
   if (const auto errors = check(s); !errors.empty())
     throw InputError(errors.front().field + " " + errors.front().reason);
   const bool within = s.model == Model::beam ? args.reading_m < s.no_return_m : args.reading_m <= s.max_range_m;
@@ -78,7 +85,7 @@ void evaluate_points(const Args& args) {
   auto to = std::back_inserter(csv);
   fmt::format_to(to, "d_m,theta_deg,e,o,u,c\n");
   for (const Point& p : points) {
-    const ModelMass m = evaluate(s, args.reading_m, p.d_m, p.theta_deg * kDeg);
+    const ModelMass m = evaluate(s, args.reading_m, p.d_m, p.theta_deg * kDeg, args.cell_m);
     fmt::format_to(to, "{},{},{:.9g},{:.9g},{:.9g},{:.9g}\n", p.d_m, p.theta_deg, m.e, m.o, m.u, m.c);
   }
   std::cout << std::string_view(csv.data(), csv.size());
@@ -96,12 +103,21 @@ void add_model(CLI::App& app) {
   command->add_option("--aperture", args->aperture_deg, "full opening of a cone, degrees")->capture_default_str();
   command->add_option("--reliability", args->reliability, "Shafer discount in (0, 1]")->capture_default_str();
   command->add_option("--max-range", args->max_range_m, "m (default: 5 for cones, 10 for beam)");
+  command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable");
+  command->add_option("--cell", args->cell_m, "side of a cell, m: moravec1985 shares o among the cells of its arc")
+      ->capture_default_str();
   command->footer(
-      "Writes CSV d_m,theta_deg,e,o,u,c: masses of empty, occupied, unknown, and the paradoxical mass of li2014.\n"
-      "Outside the model's support: 0,0,1,0.\n\n"
+      "Writes CSV d_m,theta_deg,e,o,u,c: masses of empty, occupied, unknown, and the paradoxical mass of li2006 and\n"
+      "li2014. probability: e = 1 - P, o = P. fuzzy, moravec1985: e and o are memberships, u = (1-e)(1-o) neither, c = "
+      "e*o\n"
+      "both; no masses. Outside the model's support: 0,0,1,0.\n\n" +
+      describe_model_params() +
+      "\n"
       "Examples:\n"
       "  evigrid model li2014 --reading 1.493 --at 1.5,0\n"
       "  evigrid model hughes1992 --reading 2 --at 1,0 --at 2,5 --aperture 30\n"
+      "  evigrid model li2006 --reading 1.5 --at 1.2,0 --param epsilon_m=0.05\n"
+      "  evigrid model moravec1985 --reading 2 --at 1,0 --at 2,0 --cell 0.1\n"
       "  evigrid model beam --reading 3 --grid > beam.csv\n");
   command->callback([args] { evaluate_points(*args); });
 }

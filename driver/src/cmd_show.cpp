@@ -46,6 +46,9 @@ void show(const Args& args) {
   if (rect.empty()) throw InputError(saved.path + ": is a map without a single reading, there is nothing to show");
   const std::string named = args.out.empty() ? "the picture" : std::filesystem::path(args.out).filename().string();
   const Layers layers = render_layers(saved.map, rect, named + " (--rect shows a part)", args.max_image_mb);
+  if (!is_kept(look, layers))
+    throw InputError(fmt::format("--layer: {} keeps no {}; map with --layers {}", saved.path, row_of(look).name,
+                                 row_of(look).name));
   if (args.out.empty()) {
     const int columns = args.columns > 0 ? args.columns : terminal_columns();
     std::cout << terminal_picture(look, layers, columns, on_terminal() && !args.ascii);
@@ -74,9 +77,8 @@ void add_show(CLI::App& app) {
   command->add_option("--columns", args->columns, "width in the terminal (default: the terminal's, or 80)");
   command->add_option("--max-image-mb", args->max_image_mb, "refuse a picture larger than this")->capture_default_str();
   command->footer(
-      "Layers with numbers (betp bel pl empty unknown ignorance entropy conflict costmap) have a colour bar; grey "
-      "cells\n"
-      "were never seen. mixed: the masses mixed, as map.png; composite and panels: one grey picture of the three "
+      "Layers with numbers (betp to costmap) have a colour bar; grey cells were never seen. con and last_conflict: only\n"
+      "of maps made with --layers con or last_conflict. mixed: the masses mixed, as map.png; composite and panels: one grey picture of the three "
       "masses,\n"
       "and each beside it, as Hughes & Murphy 1992 show theirs; surface: Bel(occupied) in 3-D, as Li et al. 2006.\n"
       "In a terminal that shows 24-bit colours the map is drawn in half blocks; into a pipe, or with --ascii, in "

@@ -7,6 +7,7 @@
 
 #include "error.hpp"
 #include "mapping.hpp"
+#include "model_options.hpp"
 #include "out/layers.hpp"
 #include "picture/look.hpp"
 #include "progress.hpp"
@@ -31,10 +32,25 @@ Plan make_plan(const MappingOptions& o) {
   plan.params.rule = parse_map_rule(o.rule);
   plan.params.kernel = parse_kernel(o.kernel);
   if (!o.model.empty()) parse_model(o.model);
+  (void)parse_settings(o.params);
+  plan.params.false_reflection_m = parse_filter(o.filter);
   if (o.cell_m) plan.params.cell_m = *o.cell_m;
+  const auto likelihood = likelihood_from_name(o.bayes_likelihood);
+  if (!likelihood)
+    throw InputError(fmt::format("--bayes-likelihood: '{}' is unknown; known: betp, plp", o.bayes_likelihood));
+  plan.params.bayes.likelihood = *likelihood;
+  if (o.bayes_limits.size() == 2) {
+    plan.params.bayes.least_p = o.bayes_limits[0];
+    plan.params.bayes.most_p = o.bayes_limits[1];
+  }
+  if (o.layers != "all") {
+    for (const Look look : parse_looks("--layers", o.layers)) {
+      plan.params.keep_con |= look == Look::con;
+      plan.params.keep_last_conflict |= look == Look::last_conflict;
+    }
+  }
   if (const auto errors = check(plan.params); !errors.empty()) throw InputError(listed(errors));
   if (o.max_image_mb <= 0) throw InputError(fmt::format("--max-image-mb: {} is not above 0", o.max_image_mb));
-  parse_looks("--layers", o.layers);
   parse_pgm_mode(o.pgm_mode);
   plan.executor = parse_executor(o.executor, o.threads);
   return plan;
@@ -53,6 +69,7 @@ Sensor configured(const LogSensor& from_log, const MappingOptions& o, bool mixed
     }
     if (fits) s.model = wanted;  // of lasers and sonars together, those of its kind are meant
   }
+  apply_settings(parse_settings(o.params), s);
   if (o.max_range_m) s.max_range_m = *o.max_range_m;
   if (fan) {  // beyond what the scanner can tell from "no return" there is nothing to clear
     s.max_range_m = std::min(s.max_range_m, s.no_return_m);
@@ -63,6 +80,7 @@ Sensor configured(const LogSensor& from_log, const MappingOptions& o, bool mixed
   }
   const double own = from_log.stated || s.reliability < 1 ? s.reliability : fan ? 1.0 : 0.9;
   s.reliability = o.reliability.value_or(own);
+  if (o.contextual.size() == 2) s.reliability_if_empty = o.contextual[0], s.reliability_if_occupied = o.contextual[1];
   if (const auto errors = check(s); !errors.empty()) throw InputError(listed(errors));
   return s;
 }
@@ -90,6 +108,7 @@ Fused fuse(const Log& log, const MappingOptions& options, Plan plan) {
     const std::string model(name(sensor.model));
     if (std::find(out.models.begin(), out.models.end(), model) == out.models.end()) out.models.push_back(model);
   }
+  if (!options.params_of_other_models) require_used(parse_settings(options.params), out.models);
   std::vector<Reading> readings;
   readings.reserve(log.readings.size());
   for (const LogReading& r : log.readings) {

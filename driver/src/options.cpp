@@ -84,17 +84,18 @@ std::shared_ptr<Executor> parse_executor(const std::string& text, int threads) {
     return {held, held->executor.get()};
   }
   if (std::shared_ptr<Executor> executor = make_executor(text, threads)) return executor;
-  throw InputError(fmt::format("--executor: '{}' is unknown; known: serial, tbb, openmp", text));
+  throw InputError(fmt::format("--executor: '{}' is unknown; known: serial, tbb, openmp, spin", text));
 }
 
 std::string describe_outputs() {
   return "Writes into DIR: map.png; map.yaml and map.pgm (ROS map_server); masses.npy (float32, 4 x height x width: e, "
          "o,\n"
-         "u, running sum of conflict; row 0 is the smallest y); map.evigrid (the whole map, for `evigrid show`, "
+         "u, running sum of conflict, then c of rules that keep one; row 0 is the smallest y); map.evigrid (the whole "
+         "map, for `evigrid show`, "
          "`evigrid\n"
          "info` and other programs); report.json (what was used, what was refused and why).\n\n"
-         "--layers draws numbers with a colour bar (betp, bel, pl, empty, unknown, ignorance, entropy, conflict, "
-         "costmap),\n"
+         "--layers draws numbers with a colour bar (betp to costmap; con and last_conflict make the map keep them, all does "
+         "not),\n"
          "the grey composite and panels of Hughes & Murphy 1992, and Bel(occupied) as a surface.\n\n"
          "--pgm-mode: trinary 0 occupied (BetP > 0.65), 254 free (BetP < 0.196), 205 unknown; scale: grey = 255 (1 - "
          "BetP),\n"
@@ -110,13 +111,34 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("--rule", o.rule, "combination rule: " + map_rule_names())->capture_default_str();
   command.add_option("--model", o.model,
                      "sensor model: " + model_names() + " (default: beam for lasers, li2014 for sonars)");
+  command.add_option("--param", o.params,
+                     "MODEL.NAME=VALUE: a parameter of a sensor model, repeatable; `evigrid model --help` lists them");
+  command.add_option("--filter", o.filter,
+                     "drop readings before fusing: false_reflection[=METRES], by their neighbours in a ring (Li et al. "
+                     "2014; default 0.1), or none");
   command.add_option("--cell", o.cell_m, "side of a cell, m (default: 0.05 for lasers, 0.1 for sonars)");
   command.add_option("--max-range", o.max_range_m, "m: lasers clear up to it, sonar readings beyond it are refused");
   command.add_option("--reliability", o.reliability,
                      "Shafer discount in (0, 1] (default: 1 for lasers, 0.9 for sonars)");
+  command.add_option("--contextual", o.contextual,
+                     "IF_EMPTY,IF_OCCUPIED: reliability where a cell is empty (kept of m(occupied)) and where it is "
+                     "occupied (kept of m(empty)), each in (0, 1]")
+      ->delimiter(',')
+      ->expected(2);
   command.add_flag("--clear-no-return", o.clear_no_return, "lasers: a beam without return clears up to --max-range");
+  command
+      .add_option("--bayes-likelihood", o.bayes_likelihood,
+                  "rule bayes: likelihoods of a reading from its masses by betp or plp (plp: Dempster's PlP)")
+      ->capture_default_str();
+  command.add_option("--bayes-limits", o.bayes_limits, "rule bayes: least,most P(occupied) of a cell (0.001,0.999)")
+      ->delimiter(',')
+      ->expected(2);
   command.add_option("--threads", o.threads, "worker threads; 0: as many as the machine has")->capture_default_str();
-  command.add_option("--executor", o.executor, "serial, tbb or openmp; the map is the same")->capture_default_str();
+  command
+      .add_option("--executor", o.executor,
+                  "serial, tbb, openmp or spin; the map is the same. spin: threads\nthat look for work for 20 ms "
+                  "before they sleep, for single scans at 50 Hz or more")
+      ->capture_default_str();
   command.add_option("--kernel", o.kernel, "auto, scalar, avx2 or avx512; the map is the same")->capture_default_str();
   command.add_option("--json", o.json, "also write report.json to this file; - for standard output");
   command.add_option("--layers", o.layers,

@@ -17,7 +17,13 @@ struct MappingOptions {
   std::string rule = "pcr5";
   std::string model;  ///< empty: beam for lasers, li2014 for sonars
   std::optional<double> cell_m, max_range_m, reliability;
+  std::vector<std::string> params;      ///< of sensor models: MODEL.NAME=VALUE
+  bool params_of_other_models = false;  ///< compare gives each row those of all rows
+  std::string filter;                   ///< of readings; empty: the scene's, or none
+  std::vector<double> contextual;  ///< empty, or reliability if empty and if occupied
   bool clear_no_return = false;
+  std::string bayes_likelihood = "betp";
+  std::vector<double> bayes_limits;  ///< empty, or least and most P(occupied)
   int threads = 0;
   std::string executor = "tbb";
   std::string kernel = "auto";

@@ -30,6 +30,9 @@ Sensor common(const Spec& spec) {
   s.min_range_m = spec.min_range_m;
   s.max_range_m = spec.max_range_m;
   s.reliability = spec.reliability;
+  for (const auto& [model, values] : spec.parameters) {
+    for (const auto& [field, value] : values) set_model_param(s, parse_model(model), field, value);
+  }
   return s;
 }
 
@@ -81,7 +84,8 @@ void warn_of_walls(const raycast::Scene& caster, const std::vector<scenes::Pose>
     if (crossings++ == 0) first = fmt::format("step {} near ({:.2f}, {:.2f})", i, a.x_m, a.y_m);
   }
   if (crossings > 0)
-    log.warnings.push_back(fmt::format("the robot drives through walls in {} of its steps, first in {}", crossings, first));
+    log.warnings.push_back(
+        fmt::format("the robot drives through walls in {} of its steps, first in {}", crossings, first));
 }
 
 void append(Log& log, std::size_t sensor, const float* first, std::size_t count) {
@@ -103,6 +107,10 @@ scenes::Vocabulary vocabulary() {
   for (const Rule rule : all_rules()) words.rules.emplace_back(name(rule));
   for (const Model model : all_models())
     (model == Model::beam ? words.laser_models : words.sonar_models).emplace_back(name(model));
+  for (const Model model : all_models()) {
+    for (const ModelParam& p : model_params(model))
+      words.parameters.push_back({std::string(name(model)), std::string(p.name), p.least, p.most, p.is_switch});
+  }
   return words;
 }
 
@@ -126,6 +134,11 @@ SceneInput open_scene(const std::string& name_or_path) {
   }
 }
 
+void use_filter(const scenes::Scene& scene, MappingOptions& options) {
+  if (options.filter.empty() && scene.map.false_reflection_m >= 0)
+    options.filter = fmt::format("false_reflection={}", scene.map.false_reflection_m);
+}
+
 Simulated simulate(const scenes::Scene& scene, const CastOptions& options) {
   const auto start = Clock::now();
   Simulated out;
@@ -141,7 +154,10 @@ Simulated simulate(const scenes::Scene& scene, const CastOptions& options) {
   const scenes::Simulation simulation(copy, caster);
   require_memory(copy, simulation.steps());
   warn_of_walls(caster, simulation.poses(), out.log);
-  if (simulation.steps() == 1) out.log.warnings.push_back("the robot stands still: one scan only; in a tour it has no room to drive, try a smaller robot or another start");
+  if (simulation.steps() == 1)
+    out.log.warnings.push_back(
+        "the robot stands still: one scan only; in a tour it has no room to drive, try a smaller robot or another "
+        "start");
   Progress progress("casting");
   for (std::size_t at = 0; at < simulation.steps(); at += kBatch) {
     const std::size_t count = std::min(kBatch, simulation.steps() - at);

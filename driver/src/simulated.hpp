@@ -26,6 +26,10 @@ std::string embedded_scene_names();
 /// The robot's sensors in the engine's words: sonars, then lasers.
 std::vector<LogSensor> declared_sensors(const scenes::Scene& scene);
 
+struct MappingOptions;
+/// The filter that the scene names, unless the command line names one.
+void use_filter(const scenes::Scene& scene, MappingOptions& options);
+
 struct CastOptions {
   int threads = 0;     ///< 0: as many as the machine has; the readings are the same
   bool ideal = false;  ///< no noise, no second bounce, no cross-talk

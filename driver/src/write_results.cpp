@@ -78,7 +78,8 @@ Json make_report(const Log& log, const Fused& f, const MappingOptions& o, const 
                        {"reliability", s.reliability}});
   }
   r["sensors"] = sensors;
-  r["masses"] = "masses.npy: float32 (4, height, width): e, o, u, running sum of conflict; row 0 is the smallest y";
+  r["masses"] = fmt::format("masses.npy: float32 ({}, height, width): {}; row 0 is the smallest y", layers.count(),
+                            plane_names(layers));
   return r;
 }
 
@@ -101,8 +102,10 @@ void write_results(OutDir& out, const Log& log, const Fused& fused, const Layers
     out.write(file, png(draw(look, layers, path, text, {0, options.max_image_mb, file})), {});
   };
   picture("map.png", Look::mixed);
-  for (const Look look : parse_looks("--layers", options.layers))
+  for (const Look look : parse_looks("--layers", options.layers)) {
+    if (!is_kept(look, layers)) continue;  // "all" draws what is there
     picture(fmt::format("layer_{}.png", row_of(look).name), look);
+  }
   const std::string head = npy_head(layers);
   out.write("masses.npy", std::as_bytes(std::span(head)), std::as_bytes(std::span(layers.planes)));
   const PgmMode mode = parse_pgm_mode(options.pgm_mode);

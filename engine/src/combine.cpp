@@ -1,52 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The batched combination: blocks of cells over the executor, each block one call of the chosen table.
+// The batched combination of two sources: blocks of cells over the executor, each block one call of the chosen table.
 #include "evigrid/combine.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <stdexcept>
 #include <string>
 
+#include "combine_blocks.hpp"
 #include "kernels/row/kernel_table.hpp"
 #include "rule_kernels.hpp"
 
 namespace evigrid {
 namespace {
-
-constexpr std::size_t kBlock = std::size_t{1} << 16;  // cells: 1.5 MB of traffic, far above the cost of a task
-
-const kernels::KernelTable& table_of(Kernel kernel) {
-  const kernels::KernelTable* table = kernels::find_table(name(kernel));
-  if (table == nullptr) {
-    throw std::invalid_argument("kernel: " + std::string(name(kernel)) + " cannot run on this processor");
-  }
-  return *table;
-}
-
-/// body(begin, end) over [0, n) in blocks; returns the sum of its results.
-template <class Body>
-std::uint64_t over_blocks(std::size_t n, Executor* executor, const Body& body) {
-  if (executor == nullptr || n <= kBlock) return n == 0 ? 0 : body(0, n);
-  struct Context {
-    const Body& body;
-    std::size_t n;
-    std::atomic<std::uint64_t> sum{0};
-  } context{body, n};
-  executor->run(
-      static_cast<std::int64_t>((n + kBlock - 1) / kBlock),
-      [](void* p, std::int64_t index, int) {
-        auto& c = *static_cast<Context*>(p);
-        const std::size_t begin = static_cast<std::size_t>(index) * kBlock;
-        c.sum += c.body(begin, std::min(begin + kBlock, c.n));
-      },
-      &context);
-  return context.sum;
-}
-
-bool leaves_paradox(Rule rule) {
-  const kernels::RuleKernel k = kernel_of(rule);
-  return k == kernels::kConjunctive || k == kernels::kFuzzy;
-}
 
 /// Floats with mass on empty ∩ occupied, in double a few at a time.
 std::uint64_t through_double(Rule rule, Planes<const float> a, Planes<const float> b, Planes<float> c, float* conflict,
@@ -74,30 +39,52 @@ std::uint64_t through_double(Rule rule, Planes<const float> a, Planes<const floa
 
 }  // namespace
 
+const kernels::KernelTable& table_of(Kernel kernel) {
+  const kernels::KernelTable* table = kernels::find_table(name(kernel));
+  if (table == nullptr) {
+    throw std::invalid_argument("kernel: " + std::string(name(kernel)) + " cannot run on this processor");
+  }
+  return *table;
+}
+
+std::uint64_t combine_range(const kernels::KernelTable& table, Rule rule, Planes<const float> a, Planes<const float> b,
+                            Planes<float> c, float* conflict, std::size_t begin, std::size_t end) {
+  if (a.c != nullptr || b.c != nullptr) return through_double(rule, a, b, c, conflict, begin, end);
+  const kernels::DensePlanes planes{a.e, a.o, a.u, b.e, b.o, b.u, c.e, c.o, c.u, conflict, c.c};
+  const std::uint64_t totals = table.dense[kernel_of(rule)](planes, begin, end);
+  if (c.c != nullptr && !keeps_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0f);
+  return totals;
+}
+
+std::uint64_t combine_range(Rule rule, Planes<const double> a, Planes<const double> b, Planes<double> c,
+                            double* conflict, std::size_t begin, std::size_t end) {
+  const kernels::DoublePlanes planes{a.e, a.o, a.u, a.c, b.e, b.o, b.u, b.c, c.e, c.o, c.u, c.c, conflict};
+  const std::uint64_t totals = kernels::dense_double(kernel_of(rule), planes, begin, end);
+  if (c.c != nullptr && !keeps_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0);
+  return totals;
+}
+
 std::uint64_t combine(Rule rule, Planes<const float> a, Planes<const float> b, Planes<float> c, float* conflict,
                       std::size_t n, Kernel kernel, Executor* executor) {
-  const auto dense = table_of(kernel).dense[kernel_of(rule)];
-  const kernels::DensePlanes planes{a.e, a.o, a.u, b.e, b.o, b.u, c.e, c.o, c.u, conflict, c.c};
-  const bool open = a.c != nullptr || b.c != nullptr;
+  const kernels::KernelTable& table = table_of(kernel);
   return over_blocks(n, executor, [&](std::size_t begin, std::size_t end) {
-    if (open) return through_double(rule, a, b, c, conflict, begin, end);
-    const std::uint64_t totals = dense(planes, begin, end);
-    if (c.c != nullptr && !leaves_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0f);
-    return totals;
+    return combine_range(table, rule, a, b, c, conflict, begin, end);
   });
 }
 
 std::uint64_t combine(Rule rule, Planes<const double> a, Planes<const double> b, Planes<double> c, double* conflict,
                       std::size_t n, Executor* executor) {
-  const kernels::DoublePlanes planes{a.e, a.o, a.u, a.c, b.e, b.o, b.u, b.c, c.e, c.o, c.u, c.c, conflict};
   return over_blocks(n, executor, [&](std::size_t begin, std::size_t end) {
-    const std::uint64_t totals = kernels::dense_double(kernel_of(rule), planes, begin, end);
-    if (c.c != nullptr && !leaves_paradox(rule)) std::fill(c.c + begin, c.c + end, 0.0);
-    return totals;
+    return combine_range(rule, a, b, c, conflict, begin, end);
   });
 }
 
 std::string_view resolve_kernel_name(Kernel kernel) { return table_of(kernel).name; }
 bool kernel_available(Kernel kernel) noexcept { return kernels::find_table(name(kernel)) != nullptr; }
+
+double fuzzy_map(double empty, double occupied) noexcept {
+  const double not_occupied = 1 - occupied, both = empty * occupied, neither = (1 - empty) * not_occupied;
+  return 1 - empty * empty * not_occupied * (1 - both) * (1 - neither);
+}
 
 }  // namespace evigrid

@@ -1,115 +1,181 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gate, footprints, binning; then every tile fuses its readings in their order, tiles in parallel (owner computes). The
-// order of combination is part of the result, so there are no atomics and no reductions on cells, and the map is the
-// same bits for any executor and any number of threads.
+// Gate, footprints, binning; then every region of tiles fuses its readings in their order, regions in parallel (owner
+// computes). The order of combination is part of the result, so there are no atomics and no reductions on cells, and
+// the map is the same bits for any executor and any number of threads.
 #include "integrate.hpp"
 
 #include <algorithm>
 
+#include "kernels/row/portable_math.hpp"
 #include "rule_kernels.hpp"
-#include "scan/bin.hpp"
-#include "scan/footprint.hpp"
 #include "scan/gate.hpp"
+#include "scratch.hpp"
 
 namespace evigrid {
 namespace {
 
 struct Batch {
   const Pipeline& p;
-  const std::vector<Footprint>& footprints;
-  std::vector<TileWork>& work;
-  std::vector<kernels::Stats>& stats;
+  Scratch& s;
+  kernels::RuleArgs rule;
 };
 
-/// One tile: its readings, in order.
-void fuse_tile(const Batch& b, std::size_t index) {
-  const TileWork& w = b.work[index];
-  const int rule = kernel_of(b.p.params.rule);
-  MicroList micros;
-  kernels::FanMicros fan_micros;
-  kernels::TileArgs args;
-  args.cells = w.tile->cells.get();
-  args.conflict_plane = b.p.params.keep_conflict;
-  BlockMask reached = 0;
-  for (const std::uint32_t i : w.footprints) {
-    const Footprint& f = b.footprints[i];
-    const auto at = [&](const auto& q) {  // the tile as seen from the sensor
-      args.x0 = static_cast<float>(offset(w.tile->index.x, q.i0, q.fx));
-      args.y0 = static_cast<float>(offset(w.tile->index.y, q.j0, q.fy));
-    };
-    if (f.fan) {
-      at(f.fan->reading);
-      b.p.table.select_fan(f.fan->reading, args.x0, args.y0, fan_micros);
-      args.micros = fan_micros.edge;
-      args.micro_count = fan_micros.edge_count;
-      args.empty_micros = fan_micros.empty;
-      args.empty_count = fan_micros.empty_count;
-      reached |= blocks_of(args.micros, args.micro_count) | blocks_of(args.empty_micros, args.empty_count);
-      b.p.table.fuse_fan[rule](args, f.fan->reading, b.stats[index]);
-    } else {
-      at(f.cone);
-      select_micros(f.cone, args.x0, args.y0, micros);
-      args.micros = micros.micro.data();
-      args.micro_count = micros.count;
-      reached |= blocks_of(args.micros, args.micro_count);
-      b.p.table.fuse_cone[rule][f.cone_model](args, f.cone, b.stats[index]);
-    }
-  }
-  if (b.stats[index].cells > 0) w.tile->change->mark(reached, b.p.changes.next());
+kernels::RuleArgs args_of(const MapParams& p, bool undo) {
+  const auto log_odds = [](double q) {
+    return static_cast<float>(kernels::portable_log(q) - kernels::portable_log(1 - q));
+  };
+  kernels::RuleArgs a;
+  a.sign = undo ? -1.0f : 1.0f;
+  a.unknown_share = p.bayes.likelihood == Likelihood::plp ? 1.0f : 0.5f;
+  a.least_log_odds = log_odds(p.bayes.least_p);
+  a.most_log_odds = log_odds(p.bayes.most_p);
+  a.con = p.keep_con;
+  a.last = p.keep_last_conflict;
+  return a;
 }
 
+/// One region: its readings, in order. Cones are listed ahead of their fusion, so that their cells can be fetched.
+class RegionTask {
+ public:
+  RegionTask(const Batch& b, RegionScratch& scratch) : b_(b), s_(scratch), rule_(kernel_of(b.p.params.rule)) {}
+
+  void run(std::span<const Reach> reaches) {
+    for (std::size_t i = 0; i < reaches.size();) {
+      std::size_t end = i + 1;
+      while (end < reaches.size() && reaches[end].footprint == reaches[i].footprint) ++end;
+      const Footprint& f = b_.s.footprints[reaches[i].footprint];
+      if (f.fan) {
+        fuse_cones();
+        for (; i < end; ++i) fuse_fan(*f.fan, b_.s.plan.tiles[reaches[i].tile]);
+      } else {
+        list_cone(f, reaches.subspan(i, end - i));
+        i = end;
+      }
+    }
+    fuse_cones();
+    for (const Reach& r : reaches) {
+      TileWork& w = b_.s.plan.tiles[r.tile];
+      if (w.reached == 0 || w.touched) continue;
+      ++tiles;
+      if (stats.cells == 0) continue;
+      w.tile->change->mark(w.reached, b_.p.changes.next());
+      w.touched = true;
+    }
+  }
+  kernels::Stats stats;
+  std::uint64_t tiles = 0;
+
+ private:
+  void list_cone(const Footprint& f, std::span<const Reach> reaches) {
+    constexpr int kEnough = 4096;
+    Plan& plan = b_.s.plan;
+    const ConeList::Marks from = s_.list.marks();
+    const ConeFootprint& cone = plan.cone[reaches[0].footprint];
+    for (const Reach& r : reaches) {
+      TileWork& w = plan.tiles[r.tile];
+      w.reached |= s_.list.add(cone, plan.cones.bands(cone), *w.tile, b_.p.store.planes());
+    }
+    s_.pending.push_back({&f, from, s_.list.marks()});
+    if (s_.list.size() > kEnough) fuse_cones();
+  }
+  void fuse_cones() {
+    for (const PendingCone& c : s_.pending) {
+      kernels::ConeArgs args = s_.list.args(c.from, c.to);
+      args.planes = b_.p.store.planes();
+      args.conflict_plane = b_.p.params.keep_conflict && !b_.p.undo;
+      args.rule = b_.rule;
+      b_.p.table.fuse_cone[rule_][c.footprint->cone_model](args, c.footprint->cone, stats);
+    }
+    s_.pending.clear();
+    s_.list.clear();
+  }
+  void fuse_fan(const kernels::Fan& fan, TileWork& w) {
+    const kernels::FanReading& q = fan.reading;
+    kernels::TileArgs args;
+    args.cells = w.tile->cells.get();
+    args.planes = b_.p.store.planes();
+    args.conflict_plane = b_.p.params.keep_conflict && !b_.p.undo;
+    args.rule = b_.rule;
+    args.x0 = static_cast<float>(offset(w.at.x, q.i0, q.fx));
+    args.y0 = static_cast<float>(offset(w.at.y, q.j0, q.fy));
+    kernels::FanMicros& micros = s_.fan_micros;
+    b_.p.table.select_fan(q, args.x0, args.y0, micros);
+    args.fan = &micros;
+    const std::uint64_t before = stats.cells;
+    b_.p.table.fuse_fan[rule_](args, q, stats);
+    if (stats.cells == before) return;
+    w.reached |= blocks_of(micros.empty, micros.empty_count) | blocks_of(micros.near, micros.near_count) |
+                 blocks_of(micros.edge, micros.edge_count - micros.near_count);
+  }
+
+  const Batch& b_;
+  RegionScratch& s_;
+  int rule_;
+};
+
 /// Compiling is independent of order. A single scan's few readings are not worth waking other threads.
-void compile_all(std::vector<Footprint>& footprints, Executor& executor) {
+void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
   constexpr std::size_t kChunk = 16, kAlone = 4 * kChunk;
   const std::size_t n = footprints.size();
   if (n <= kAlone) {
-    for (Footprint& f : footprints) compile(f);
+    for (Footprint& f : footprints) compile(f, p.table);
     return;
   }
-  executor.run(
+  struct All {
+    std::vector<Footprint>& footprints;
+    const kernels::KernelTable& table;
+  } all_of{footprints, p.table};
+  p.executor.run(
       static_cast<std::int64_t>((n + kChunk - 1) / kChunk),
       [](void* context, std::int64_t chunk, int) {
-        auto& all = *static_cast<std::vector<Footprint>*>(context);
+        const auto& [all, table] = *static_cast<All*>(context);
         const std::size_t first = static_cast<std::size_t>(chunk) * kChunk;
-        for (std::size_t i = first; i < std::min(first + kChunk, all.size()); ++i) compile(all[i]);
+        for (std::size_t i = first; i < std::min(first + kChunk, all.size()); ++i) compile(all[i], table);
       },
-      &footprints);
+      &all_of);
 }
 
 }  // namespace
 
-Report integrate(const Pipeline& p, std::span<const Scan> scans) {
+Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   Report report;
-  std::vector<Footprint> footprints;
+  s.footprints.clear();
   for (const Scan& scan : scans) {  // gate: compile what can be used, count the rest
-    if (scan.stamp_ns < p.last_stamp_ns) ++report.stamps_backwards;
-    p.last_stamp_ns = scan.stamp_ns;
-    gate_scan(scan, p.sensors, p.params.cell_m, footprints, report);
+    if (!p.undo) {
+      if (scan.stamp_ns < p.last_stamp_ns) ++report.stamps_backwards;
+      p.last_stamp_ns = scan.stamp_ns;
+    }
+    gate_scan(scan, p.sensors, p.params, s.footprints, report);
   }
-  compile_all(footprints, p.executor);
-  std::vector<TileWork> work = bin(footprints, p.table, p.store);
-  std::vector<kernels::Stats> stats(work.size());
-  for (const TileWork& w : work) p.changes.enroll(*w.tile);
-  Batch batch{p, footprints, work, stats};
+  compile_all(s.footprints, p);
+  const int threads = p.executor.concurrency();
+  bin(s.footprints, p.table, p.store, threads, s.plan);
+  for (const TileWork& w : s.plan.tiles) p.changes.enroll(*w.tile);
+  s.stats.assign(s.plan.regions(), {});
+  if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
+  Batch batch{p, s, args_of(p.params, p.undo)};
   p.executor.run(
-      static_cast<std::int64_t>(work.size()),
+      static_cast<std::int64_t>(s.plan.regions()),
       [](void* context, std::int64_t index, int worker) {
         const Batch& b = *static_cast<const Batch*>(context);
-        fuse_tile(b, static_cast<std::size_t>(index));
-        ++b.p.tiles_per_worker[static_cast<std::size_t>(worker)];
+        RegionTask task(b, b.s.workers[static_cast<std::size_t>(worker)]);
+        task.run(b.s.plan.region(static_cast<std::size_t>(index)));
+        b.s.stats[static_cast<std::size_t>(index)] = task.stats;
+        b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += task.tiles;
       },
       &batch);
-  for (std::size_t i = 0; i < work.size(); ++i) {
-    Report r;
-    r.cells_updated = stats[i].cells;
-    r.total_conflicts = stats[i].total_conflicts;
-    r.max_conflict = stats[i].max_conflict;
-    const TileIndex at = work[i].tile->index;
-    if (stats[i].cells > 0) {
-      r.touched = {at.x * kernels::kTileSide, at.y * kernels::kTileSide, kernels::kTileSide, kernels::kTileSide};
-      p.changes.moved(*work[i].tile->change);
-    }
-    report += r;
+  for (const kernels::Stats& region : s.stats) {
+    report.cells_updated += region.cells;
+    report.total_conflicts += region.total_conflicts;
+    report.max_conflict = std::max(report.max_conflict, region.max_conflict);
+  }
+  for (const TileWork& w : s.plan.tiles) {
+    if (!w.touched) continue;
+    constexpr std::int64_t kSide = kernels::kTileSide;
+    Report one;
+    one.touched = {w.at.x * kSide, w.at.y * kSide, kSide, kSide};
+    report += one;
+    p.changes.moved(*w.tile->change);
   }
   if (report.cells_updated > 0) p.changes.commit();
   return report;

@@ -20,8 +20,11 @@ struct Pipeline {
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
   std::int64_t& last_stamp_ns;
+  bool undo = false;  // takes the scans back
 };
 
-Report integrate(const Pipeline&, std::span<const Scan>);
+struct Scratch;  // scratch.hpp
+
+Report integrate(const Pipeline&, Scratch&, std::span<const Scan>);
 
 }  // namespace evigrid

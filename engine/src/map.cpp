@@ -10,6 +10,7 @@
 #include "integrate.hpp"
 #include "io/map_access.hpp"
 #include "params/table.hpp"
+#include "scratch.hpp"
 
 namespace evigrid {
 
@@ -22,13 +23,14 @@ struct Map::Impl {
   std::vector<CompiledSensor> compiled;
   std::vector<Sensor> sensors;
   std::vector<std::uint64_t> tiles_per_worker;
+  Scratch scratch;
   std::int64_t last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
       : params(p),
         table(kernels::find_table(name(p.kernel))),
         executor(e ? std::move(e) : std::shared_ptr<Executor>(make_tbb_executor())),
-        store(p.keep_conflict, p.memory_cap_bytes),
+        store(cell_layout(p, *table), p.memory_cap_bytes),
         tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
 };
 
@@ -45,6 +47,7 @@ Map& Map::operator=(Map&&) noexcept = default;
 
 SensorId Map::add(const Sensor& sensor) {
   auto errors = check(sensor);
+  if (errors.empty()) errors = check_pair(impl_->params.rule, sensor);
   if (errors.empty()) errors = check_reach(sensor, impl_->params.cell_m);
   if (!errors.empty()) throw std::invalid_argument(describe(errors));
   impl_->compiled.emplace_back(sensor, impl_->params.cell_m);
@@ -55,19 +58,35 @@ SensorId Map::add(const Sensor& sensor) {
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
 Report Map::integrate(std::span<const Scan> scans) {
   Impl& m = *impl_;
-  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns},
-                            scans);
+  return evigrid::integrate(
+      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns}, m.scratch,
+      scans);
+}
+
+Report Map::undo(const Scan& scan) { return undo(std::span<const Scan>(&scan, 1)); }
+Report Map::undo(std::span<const Scan> scans) {
+  Impl& m = *impl_;
+  if (!state_is_sum(m.params.rule)) {
+    throw std::logic_error("undo: a map of the rule " + std::string(name(m.params.rule)) +
+                           " cannot take a scan back: its cells are no sums");
+  }
+  return evigrid::integrate(
+      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns, true},
+      m.scratch, scans);
 }
 
 Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }
 float Map::conflict(CellIndex c) const noexcept { return read_cell(impl_->store, c).conflict; }
+float Map::con(CellIndex c) const noexcept { return read_cell(impl_->store, c).con; }
+float Map::last_conflict(CellIndex c) const noexcept { return read_cell(impl_->store, c).last_conflict; }
 CellIndex Map::cell_at(double x_m, double y_m) const noexcept {
   const double c = impl_->params.cell_m;
   return {static_cast<std::int64_t>(std::floor(x_m / c)), static_cast<std::int64_t>(std::floor(y_m / c))};
 }
 CellRect Map::bounds() const { return occupied_bounds(impl_->store); }
-void Map::render(Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) const {
-  render_layer(impl_->store, layer, rect, out, stride);
+void Map::render(Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride,
+                 const ReadOutParams& params) const {
+  render_layer(impl_->store, layer, params, rect, out, stride);
 }
 void Map::render(const Costmap& c, CellRect rect, std::span<std::int8_t> out, std::ptrdiff_t stride) const {
   render_costmap(impl_->store, c, rect, out, stride);

@@ -17,7 +17,6 @@ struct Row {
   RuleKernel kernel;
   std::string_view not_in_maps;
 };
-constexpr std::string_view kNoParadox = "a map keeps no plane for the mass on empty and occupied at once";
 constexpr auto kRows = std::to_array<Row>({
     {Rule::dempster, "dempster", kDempster, ""},
     {Rule::pcr2, "pcr2", kPcr2, ""},
@@ -32,13 +31,14 @@ constexpr auto kRows = std::to_array<Row>({
     {Rule::pcr6, "pcr6", kPcr5, ""},
     {Rule::pcr5plus, "pcr5plus", kPcr5, ""},
     {Rule::pcr6plus, "pcr6plus", kPcr5, ""},
-    {Rule::conjunctive, "conjunctive", kConjunctive, kNoParadox},
-    {Rule::dsmc, "dsmc", kConjunctive, kNoParadox},
+    {Rule::conjunctive, "conjunctive", kConjunctive, ""},
+    {Rule::dsmc, "dsmc", kConjunctive, ""},
+    {Rule::cautious, "cautious", kCautious, ""},
+    {Rule::murphy, "murphy", kMurphy, ""},
+    {Rule::bayes, "bayes", kBayes, ""},
+    {Rule::fuzzy, "fuzzy", kFuzzy, ""},
+    {Rule::dempster_log, "dempster_log", kDempsterLog, ""},
     {Rule::disjunctive, "disjunctive", kDisjunctive, "a cell that starts unknown would stay unknown for ever"},
-    {Rule::cautious, "cautious", kCautious, "a map keeps no plane for its weights"},
-    {Rule::murphy, "murphy", kMurphy, "a map keeps no plane for the mean of the readings and their number"},
-    {Rule::bayes, "bayes", kBayes, "a map keeps no plane for log-odds"},
-    {Rule::fuzzy, "fuzzy", kFuzzy, "a map keeps no plane for memberships, which are no masses"},
 });
 static_assert(kRows.size() == kRuleCount);
 
@@ -70,6 +70,7 @@ std::string_view name(Rule r) noexcept { return row_of(r) != nullptr ? row_of(r)
 std::string_view why_not_in_maps(Rule r) noexcept {
   return row_of(r) != nullptr ? row_of(r)->not_in_maps : "no such rule";
 }
+bool keeps_paradox(Rule r) noexcept { return kernel_of(r) == kConjunctive || kernel_of(r) == kFuzzy; }
 Rule same_as(Rule r) noexcept {
   for (const Row& row : kRows) {
     if (row.kernel == kernel_of(r)) return row.rule;

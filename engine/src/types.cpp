@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of the enumerations, one table each (of the rules: rule_kernels.cpp), and poses.
+// Names of the enumerations, one table each (of rules and models: rule_kernels.cpp, model_rows.cpp), and poses.
 #include "evigrid/types.hpp"
 
 #include <array>
 
-#include "evigrid/scan.hpp"
+#include "evigrid/map.hpp"
 #include "kernels/row/portable_math.hpp"
 
 namespace evigrid {
@@ -15,16 +15,10 @@ struct Named {
   E value;
   std::string_view name;
 };
-constexpr auto kModelNames =
-    std::to_array<Named<Model>>({{Model::hughes1992, "hughes1992"}, {Model::li2014, "li2014"}, {Model::beam, "beam"}});
 constexpr auto kKernelNames = std::to_array<Named<Kernel>>(
     {{Kernel::automatic, "auto"}, {Kernel::scalar, "scalar"}, {Kernel::avx2, "avx2"}, {Kernel::avx512, "avx512"}});
-constexpr auto kLayerNames = std::to_array<Named<Layer>>({{Layer::betp, "betp"},
-                                                          {Layer::bel, "bel"},
-                                                          {Layer::pl, "pl"},
-                                                          {Layer::empty, "empty"},
-                                                          {Layer::unknown, "unknown"},
-                                                          {Layer::conflict, "conflict"}});
+constexpr auto kLikelihoodNames =
+    std::to_array<Named<Likelihood>>({{Likelihood::betp, "betp"}, {Likelihood::plp, "plp"}});
 constexpr auto kRefusalNames = std::to_array<Named<Refusal>>({{Refusal::not_a_number, "not_a_number"},
                                                               {Refusal::too_close, "too_close"},
                                                               {Refusal::negative, "negative"},
@@ -32,8 +26,9 @@ constexpr auto kRefusalNames = std::to_array<Named<Refusal>>({{Refusal::not_a_nu
                                                               {Refusal::above_max_range, "above_max_range"},
                                                               {Refusal::wrong_beam_count, "wrong_beam_count"},
                                                               {Refusal::unknown_sensor, "unknown_sensor"},
-                                                              {Refusal::pose_not_finite, "pose_not_finite"}});
-static_assert(kModelNames.size() == kModelCount && kRefusalNames.size() == kRefusalCount);
+                                                              {Refusal::pose_not_finite, "pose_not_finite"},
+                                                              {Refusal::false_reflection, "false_reflection"}});
+static_assert(kRefusalNames.size() == kRefusalCount);
 
 template <class Table, class E>
 std::string_view find_name(const Table& table, E value) noexcept {
@@ -49,23 +44,16 @@ std::optional<E> find_value(const Table& table, std::string_view text) noexcept 
   }
   return std::nullopt;
 }
-template <class E, std::size_t N>
-constexpr std::array<E, N> values(const std::array<Named<E>, N>& table) {
-  std::array<E, N> out{};
-  for (std::size_t i = 0; i < N; ++i) out[i] = table[i].value;
-  return out;
-}
-constexpr auto kModels = values(kModelNames);
 
 }  // namespace
 
-std::string_view name(Model m) noexcept { return find_name(kModelNames, m); }
 std::string_view name(Kernel k) noexcept { return find_name(kKernelNames, k); }
-std::string_view name(Layer l) noexcept { return find_name(kLayerNames, l); }
+std::string_view name(Likelihood l) noexcept { return find_name(kLikelihoodNames, l); }
 std::string_view name(Refusal r) noexcept { return find_name(kRefusalNames, r); }
-std::optional<Model> model_from_name(std::string_view s) noexcept { return find_value<Model>(kModelNames, s); }
+std::optional<Likelihood> likelihood_from_name(std::string_view s) noexcept {
+  return find_value<Likelihood>(kLikelihoodNames, s);
+}
 std::optional<Kernel> kernel_from_name(std::string_view s) noexcept { return find_value<Kernel>(kKernelNames, s); }
-std::span<const Model> all_models() noexcept { return kModels; }
 
 Pose2 compose(const Pose2& a, const Pose2& b) noexcept {
   const kernels::SinCos sc = kernels::portable_sincos(a.yaw_rad);

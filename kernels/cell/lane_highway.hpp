@@ -80,6 +80,11 @@ HWY_INLINE Pack neg_mul_add(const Pack& a, const Pack& b, const Pack& c) {
   for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::NegMulAdd(a.v[i], b.v[i], c.v[i]);
   return r;
 }
+HWY_INLINE Pack magnitude(const Pack& a) {
+  Pack r;
+  for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Abs(a.v[i]);
+  return r;
+}
 HWY_INLINE Pack root(const Pack& a) {
   Pack r;
   for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Sqrt(a.v[i]);
@@ -110,6 +115,25 @@ HWY_INLINE Pack scale_by_magic(const Pack& p, const Pack& magic) {
   return r;
 }
 
+/// x = m · 2^n for a normal x > 0, m in [√½, √2); down = 2^−n.
+template <class V>
+struct Split {
+  V m, n, down;
+};
+HWY_INLINE Split<Pack> split_exponent(const Pack& x) {
+  const hn::RebindToSigned<Tag> di;
+  Split<Pack> r;
+  for (int i = 0; i < kUnroll; ++i) {
+    const auto bits = hn::BitCast(di, x.v[i]);
+    const auto n = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
+    const auto up = hn::ShiftLeft<23>(n);
+    r.m.v[i] = hn::BitCast(Tag(), hn::Sub(bits, up));
+    r.n.v[i] = hn::ConvertTo(Tag(), n);
+    r.down.v[i] = hn::BitCast(Tag(), hn::Sub(hn::Set(di, 0x3f800000), up));
+  }
+  return r;
+}
+
 /// How loops step over micro-tiles of 16 cells: kMicros whole ones at a time.
 struct Lanes {
   using V = Pack;
@@ -135,6 +159,55 @@ struct Lanes {
         hn::Store(hn::IfThenElse(k.v[i], v.v[i], hn::Load(Tag(), at)), Tag(), at);
       }
     }
+  }
+  static HWY_INLINE void store_all(float* const* micro, int, const V& v) {
+    for (int i = 0; i < kUnroll; ++i) hn::Store(v.v[i], Tag(), micro[i / kPerMicro] + i % kPerMicro * kVecLanes);
+  }
+  /// A number of each micro-tile of the step, for all its cells.
+  static HWY_INLINE V spread(const float* per_micro) {
+    V r;
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Set(Tag(), per_micro[i / kPerMicro]);
+    return r;
+  }
+  /// Column and row of a cell within its micro-tile.
+  static HWY_INLINE V column(int) {
+    alignas(64) static constexpr float kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+    return repeat(kColumn);
+  }
+  static HWY_INLINE V row(int) {
+    alignas(64) static constexpr float kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+    return repeat(kRow);
+  }
+  /// Sixteen numbers, the same for every micro-tile.
+  static HWY_INLINE V repeat(const float* sixteen, int = 0) {
+    V r;
+    for (int i = 0; i < kUnroll; ++i) r.v[i] = hn::Load(Tag(), sixteen + i % kPerMicro * kVecLanes);
+    return r;
+  }
+  static constexpr int kWindow = 2 * kVecLanes;
+  /// Of each micro-tile of the step kWindow floats: the one at `place`, a whole number within [0, kWindow). Two
+  /// permutations instead of a gather.
+  static HWY_INLINE V window(const float* const* of_micro, const V& place) {
+    const hn::RebindToSigned<Tag> di;
+    V r;
+    for (int i = 0; i < kUnroll; ++i) {
+      const float* at = of_micro[i / kPerMicro];
+      const auto lane = hn::And(hn::ConvertTo(di, place.v[i]), hn::Set(di, kVecLanes - 1));
+      const auto index = hn::IndicesFromVec(Tag(), lane);
+      const Vec low = hn::TableLookupLanes(hn::LoadU(Tag(), at), index);
+      const Vec high = hn::TableLookupLanes(hn::LoadU(Tag(), at + kVecLanes), index);
+      r.v[i] = hn::IfThenElse(hn::Ge(place.v[i], hn::Set(Tag(), kVecLanes)), high, low);
+    }
+    return r;
+  }
+  /// The numbers where m, one after the other; answers how many. May write kVecLanes floats beyond them.
+  static HWY_INLINE int append(float* to, const M& m, const V& v) {
+    std::size_t n = 0;
+    for (int i = 0; i < kUnroll; ++i) {
+      hn::StoreU(hn::Compress(v.v[i], m.v[i]), Tag(), to + n);
+      n += hn::CountTrue(Tag(), m.v[i]);
+    }
+    return static_cast<int>(n);
   }
   static HWY_INLINE V load_flat(const float* p) {
     V r;

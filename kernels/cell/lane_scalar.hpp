@@ -17,6 +17,7 @@ inline float mul_add(float a, float b, float c) { return std::fma(a, b, c); }
 inline double mul_add(double a, double b, double c) { return std::fma(a, b, c); }
 inline float neg_mul_add(float a, float b, float c) { return std::fma(-a, b, c); }
 inline double neg_mul_add(double a, double b, double c) { return std::fma(-a, b, c); }
+inline float magnitude(float a) { return std::fabs(a); }
 inline float root(float a) { return std::sqrt(a); }
 inline double root(double a) { return std::sqrt(a); }
 template <class T>
@@ -38,6 +39,18 @@ inline float scale_by_magic(float p, float magic) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(p) + (std::bit_cast<std::uint32_t>(magic) << 23));
 }
 
+/// x = m · 2^n for a normal x > 0, m in [√½, √2); down = 2^−n.
+template <class V>
+struct Split {
+  V m, n, down;
+};
+inline Split<float> split_exponent(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  const std::int32_t n = static_cast<std::int32_t>(bits - 0x3f3504f3u) >> 23;
+  const std::uint32_t up = static_cast<std::uint32_t>(n) << 23;
+  return {std::bit_cast<float>(bits - up), static_cast<float>(n), std::bit_cast<float>(0x3f800000u - up)};
+}
+
 /// How loops step over a micro-tile of 16 cells: one cell at a time.
 struct Lanes {
   using V = float;
@@ -48,12 +61,33 @@ struct Lanes {
   static void store(float* const* micro, int part, M m, V v) {
     if (m) micro[0][part] = v;
   }
+  static void store_all(float* const* micro, int part, V v) { micro[0][part] = v; }
+  /// A number of each micro-tile of the step, for all its cells.
+  static V spread(const float* per_micro) { return per_micro[0]; }
+  /// Sixteen numbers, the same for every micro-tile.
+  static V repeat(const float* sixteen, int part) { return sixteen[part]; }
+  /// Column and row of a cell within its micro-tile.
+  static V column(int part) { return static_cast<float>(part % 4); }
+  static V row(int part) { return static_cast<float>(part / 4); }
+  static constexpr int kWindow = 32;
+  /// Of each micro-tile of the step kWindow floats: the one at `place`, a whole number within [0, kWindow).
+  static V window(const float* const* of_micro, V place) { return of_micro[0][static_cast<int>(place)]; }
   static V load_flat(const float* p) { return *p; }
   static void store_flat(float* p, V v) { *p = v; }
+  static V load_unorm16(const std::uint16_t* p) { return static_cast<float>(*p); }
+  /// v + 2^23 ends in the nearest whole number, ties to even.
+  static void store_unorm16(std::uint16_t* p, V v) {
+    *p = static_cast<std::uint16_t>(std::bit_cast<std::uint32_t>(v + 8388608.0f));
+  }
   static int count(M m) { return m ? 1 : 0; }
   static bool any(M m) { return m; }
   static std::uint64_t bits(M m) { return m ? 1 : 0; }
   static float reduce_max(V v) { return v; }
+  /// The numbers where m, one after the other; answers how many. May write kLanes floats.
+  static int append(float* to, M m, V v) {
+    *to = v;
+    return m ? 1 : 0;
+  }
   static V gather(const float* base, V index) { return base[static_cast<int>(index)]; }
   /// High and low 16 bits of the word at base[index], as numbers.
   static void gather_halves(const std::uint32_t* base, V index, V& high, V& low) {

@@ -5,7 +5,7 @@
 
 EVIGRID_CELL_BEGIN
 
-/// 2^y for −126 < y < 127, relative error 7.5e-8. The magic constant leaves round(y) in the low bits of the sum.
+/// 2^y for −126 < y < 127, relative error of the polynomial 7.5e-8, in float arithmetic 2.2e-7. The magic constant leaves round(y) in the low bits of the sum.
 template <class V>
 EVIGRID_FN V exp2_poly(const V& y) {
   const V magic(12582912.0f);
@@ -31,6 +31,53 @@ EVIGRID_FN V scaled_log(const V& t) {
   p = mul_add(p, t, V(-4.439251900f));
   p = mul_add(p, t, V(9.766512871f));
   return mul_add(p, t, V(1.023932934f));
+}
+
+/// e^x and e^x − 1 for |x| ≤ 80; 1 and 0 exactly at 0. Errors relative to each: 1.1e-7 and 2.6e-7.
+template <class V>
+struct Exponential {
+  V value, less_one;
+};
+template <class V>
+EVIGRID_FN Exponential<V> exponential(const V& x) {
+  const V magic(12582912.0f), one(1.0f);
+  const V shifted = mul_add(x, V(1.44269504f), magic), n = shifted - magic;
+  const V r = neg_mul_add(n, V(-1.90465421e-9f), neg_mul_add(n, V(0.693147182f), x));
+  V q = mul_add(V(0.00138825225f), r, V(0.00836651493f));
+  q = mul_add(q, r, V(0.0416672006f));
+  q = mul_add(q, r, V(0.166665435f));
+  q = mul_add(q, r, V(0.49999997f));
+  const V p = mul_add(r * r, q, r), power = scale_by_magic(one, shifted);  // e^r − 1, 2^n
+  return {mul_add(power, p, power), mul_add(power, p, power - one)};
+}
+
+/// A logarithm in two parts, so that a sum of many like ones does not add up the rounding of one float: large is a
+/// multiple of 11/16, exactly, |small| < ½ for arguments below 2^20.
+template <class V>
+struct LogParts {
+  V large, small;
+};
+/// ln(1 + x) for 0 ≤ x < 2^100, absolute error 5e-8 and relative error 1.7e-7; 0 exactly at 0.
+template <class V>
+EVIGRID_FN LogParts<V> log_one_plus_parts(const V& x) {
+  const V one(1.0f);
+  const V w = one + x, added = w - one, lost = (one - (w - added)) + (x - added);  // 1 + x = w + lost
+  const auto s = split_exponent(w);
+  const V f = mul_add(lost, s.down, s.m - one);
+  V q = mul_add(V(0.087348409f), f, V(-0.143075213f));
+  q = mul_add(q, f, V(0.149179742f));
+  q = mul_add(q, f, V(-0.165705085f));
+  q = mul_add(q, f, V(0.199620724f));
+  q = mul_add(q, f, V(-0.250017554f));
+  q = mul_add(q, f, V(0.333339512f));
+  q = mul_add(q, f, V(-0.499999911f));
+  const V p = mul_add(f * f, q, f);
+  return {s.n * V(0.6875f), mul_add(s.n, V(0.00564718056f), p)};  // ln 2 = 11/16 + 0.0056…
+}
+template <class V>
+EVIGRID_FN V log_one_plus(const V& x) {
+  const LogParts<V> l = log_one_plus_parts(x);
+  return l.large + l.small;
 }
 
 /// c[0] + c[1]·x + c[2]·x² + c[3]·x³: the fits made once per sensor.

@@ -8,10 +8,28 @@
 EVIGRID_CELL_BEGIN
 
 struct Dempster {
+  static constexpr Paradox kParadox = kDropped;
   static constexpr bool kTotalPossible = true;
   template <class State, class V, class S>
   static EVIGRID_FN auto combine(const Cell<V>& c, const S& source) {
     const S m = drop_paradox(source);
+    const V zero(0.0f), one(1.0f);
+    if constexpr (kBothNormalised<State, S>) {
+      const Conjunctive<V> q = conjunctive_in_map(c, m);
+      const V sum = (q.e + q.o) + q.t;
+      const auto total = sum <= V(State::kTotal);
+      const V r = one / max_of(sum, V(State::kTotal));
+      const Cell<V> next = settle<State>(Cell<V>{q.e * r, q.o * r, q.t * r});
+      return CombinedOrTotal<V, std::remove_const_t<decltype(total)>>{
+          {select(total, zero, next.a), select(total, zero, next.b), select(total, one, next.u)},
+          select(total, one, q.k),
+          total};
+    } else {
+      return combine_at_large<State>(c, m);
+    }
+  }
+  template <class State, class V, class S>
+  static EVIGRID_FN auto combine_at_large(const Cell<V>& c, const S& m) {
     Conjunctive<V> q = conjunctive(c, m);
     const V k = q.k, zero(0.0f), one(1.0f);
     V sum = (q.e + q.o) + q.t;

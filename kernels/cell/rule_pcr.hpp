@@ -24,6 +24,7 @@ EVIGRID_FN Combined<V> share_by_columns(const Cell<V>& c, const S& m, const Conj
 }
 
 struct Pcr2 {
+  static constexpr Paradox kParadox = kGivenBack;
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>
   static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {
@@ -46,18 +47,48 @@ struct GermPcr2 {
   }
 };
 
+template <class V>
+EVIGRID_FN V above(const V& product, const V& cut) {
+  return select(product > cut, product, V(0.0f));
+}
+
 /// PCR5: each partial conflict a·y and b·x goes back to its own two parties in proportion to what each put in.
 struct Pcr5 {
+  static constexpr Paradox kParadox = kGivenBack;
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>
   static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {
+    if constexpr (kBothNormalised<State, S>) {
+      return combine_in_map<State>(c, source);
+    } else {
+      return combine_at_large<State>(c, source);
+    }
+  }
+
+  /// A normalised cell of a map and a normalised source without paradoxical mass: three divisions are cheaper than
+  /// multiplying them out, and sums fused, so that the small products never stand alone.
+  template <class State, class V>
+  static EVIGRID_FN Combined<V> combine_in_map(const Cell<V>& c, const PlainSource<V>& m) {
+    const Conjunctive<V> q = conjunctive_in_map(c, m);
+    const V least(kLeastColumn);
+    const V ay = c.a * m.y, bx = c.b * m.x;
+    const V p = ay / max_of(c.a + m.y, least), w = bx / max_of(c.b + m.x, least);
+    const V e = mul_add(p, c.a, mul_add(w, m.x, q.e)), o = mul_add(p, m.y, mul_add(w, c.b, q.o));
+    const V r = V(1.0f) / ((e + o) + q.t);
+    return {settle<State>(Cell<V>{e * r, o * r, q.t * r}), ay + bx};
+  }
+  /// Below any column that holds a mass: those are 0 or above 1e-12.
+  static constexpr float kLeastColumn = 1e-30f;
+
+  template <class State, class V, class S>
+  static EVIGRID_FN Combined<V> combine_at_large(const Cell<V>& c, const S& source) {
     const V zero(0.0f), cut(State::kFloors ? 1e-16f : 0.0f);
     const S m = give_back(source);
     const Conjunctive<V> q = conjunctive(c, m);
     const V as = c.a * scale(m), bs = c.b * scale(m);
     const V d1 = nonzero(as + m.y), d2 = nonzero(bs + m.x);
-    const V ay = c.a * m.y, bx = c.b * m.x;
-    const V p = select(ay > cut, ay, zero) * d2, w = select(bx > cut, bx, zero) * d1;  // p/(d1·d2) = a·y/(a + y)
+    // p/(d1·d2) = a·y/(a + y)
+    const auto p = above(c.a * m.y, cut) * d2, w = above(c.b * m.x, cut) * d1;
     const V dd = select(q.k > zero, d1 * d2, V(1.0f));  // without conflict no common denominator: see above
     const V e = q.e * dd + (p * as + w * m.x), o = q.o * dd + (p * m.y + w * bs);
     const V r = V(1.0f) / ((e + o) + q.t * dd);

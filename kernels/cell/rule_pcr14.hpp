@@ -8,6 +8,7 @@
 EVIGRID_CELL_BEGIN
 
 struct Pcr1 {
+  static constexpr Paradox kParadox = kGivenBack;
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>
   static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {
@@ -30,6 +31,7 @@ EVIGRID_FN Source<V> raised(const PlainSource<V>& m) {
   return {m.x * up, m.y * up, m.v * up, V(0.0f), up};
 }
 
+// No kParadox: it asks whether masses are zero, so even the smallest y of a model counts, everywhere.
 struct Pcr4 {
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>

@@ -15,6 +15,7 @@ EVIGRID_FN Combined<V> to_unknown(const S& m, const V& e, const V& o, const V& t
 }
 
 struct Yager {
+  static constexpr Paradox kParadox = kDropped;
   static constexpr bool kTotalPossible = false;
   template <class State, class V, class S>
   static EVIGRID_FN Combined<V> combine(const Cell<V>& c, const S& source) {

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/row/compile_cone.hpp"
 #include "kernels/row/lattice.hpp"
 #include "kernels/row/portable_math.hpp"
 
 namespace evigrid::kernels {
 namespace {
-
-constexpr double kLog2E = 1.44269504088896340736;
 
 /// Cubic through four Chebyshev nodes of [0, width], by Newton's divided differences.
 template <class F>
@@ -32,24 +31,26 @@ void fit_cubic(F f, double width, float (&out)[4]) {
   for (int k = 0; k < 4; ++k) out[k] = static_cast<float>(c[k]);
 }
 
-Ring ring(double t) {
-  const double t2 = t * t;  // exact: t has at most 22 bits
-  const float hi = static_cast<float>(t2);
-  return {hi, static_cast<float>(t2 - hi)};
-}
-
 }  // namespace
 
 ConeType::ConeType(const ConeSpec& s) : spec(s) {
+  const SinCos whole = portable_sincos(s.aperture_rad);
+  aperture_cos = whole.cos, aperture_sin = whole.sin;
   const double alpha = s.aperture_rad / 2, sine = portable_sincos(alpha).sin, sine2 = sine * sine;
-  const double reach = s.model == 0 ? s.max_range_m + s.tolerance_m : s.max_range_m * (1 + 2 * s.epsilon_ratio);
-  lattice = lattice_steps(reach / s.cell_m);
+  lattice = lattice_steps(farthest_reach_m(s) / s.cell_m);
   fit_cubic(
       [&](double q) {
         const double theta = portable_asin(std::sqrt(sine2 - q));
         return (1 - theta * theta / (alpha * alpha)) / q;
       },
       sine2, lambda);
+  const double twice_cosine = 2 * portable_sincos(alpha).cos;
+  fit_cubic(
+      [&](double w) {
+        const double theta = portable_asin(std::sqrt(w) / twice_cosine);
+        return theta * theta / (alpha * alpha) / w;
+      },
+      sine2 * twice_cosine * twice_cosine, off_axis);
   fit_cubic([&](double x2) { return portable_asin(std::sqrt(x2)) / std::sqrt(x2) / (2 * alpha); }, sine2, margin);
   fit_cubic(
       [&](double x) {
@@ -61,50 +62,17 @@ ConeType::ConeType(const ConeSpec& s) : spec(s) {
 
 ConeReading compile_cone(const ConeType& t, const SensorPose& pose, double range_m) noexcept {
   const ConeSpec& s = t.spec;
-  const double c = s.cell_m;
   ConeReading q;
-  place(q, pose, c, t.lattice);
-  const Direction left = direction(pose.yaw_rad + s.aperture_rad / 2),
-                  right = direction(pose.yaw_rad - s.aperture_rad / 2);
+  place(q, pose, s.cell_m, t.lattice);
+  const Direction left = edge_direction(pose.yaw_rad + s.aperture_rad / 2),
+                  right = edge_direction(pose.yaw_rad - s.aperture_rad / 2);
   q.lx = left.x, q.ly = left.y, q.rx = right.x, q.ry = right.y;
   q.reliability = static_cast<float>(s.reliability);
   q.doubt = static_cast<float>(1 - s.reliability);
-  const double r = quantise(range_m / c, t.lattice), metres = r * c;
-  double outer, edge;
-  if (s.model == 0) {
-    const double tolerance = quantise(s.tolerance_m / c, t.lattice);
-    outer = std::min(r + tolerance, quantise(s.r_max_m / c, t.lattice));
-    edge = std::max(r - tolerance, 0.0);
-    q.hughes.slope = static_cast<float>(-c / (2 * s.r_max_m));
-    q.hughes.max_occupied = static_cast<float>(s.max_occupied);
-    std::copy(t.margin, t.margin + 4, q.hughes.margin);
-  } else {
-    outer = quantise(r * (1 + 2 * s.epsilon_ratio), t.lattice);
-    edge = r;
-    LiConstants& k = q.li;
-    std::copy(t.lambda, t.lambda + 4, k.lambda);
-    std::copy(t.shell, t.shell + 4, k.shell);
-    const double root = std::sqrt(metres);
-    const double peak = s.rho_e * root * metres / (s.rho_e * root + s.rho_o);  // e^β
-    const double empty_rate = c * c * kLog2E / (2 * metres * s.rho_e * metres * s.rho_e);
-    const double occupied_rate = c * c * kLog2E / (2 * metres * s.rho_o * s.rho_o);
-    k.empty_rate = static_cast<float>(empty_rate);
-    k.empty_rate_rest = static_cast<float>(empty_rate - k.empty_rate);
-    k.occupied_rate = static_cast<float>(occupied_rate);
-    k.occupied_rate_rest = static_cast<float>(occupied_rate - k.occupied_rate);
-    k.peak_inverse = static_cast<float>(c / peak);
-    k.peak_offset = static_cast<float>(metres / peak - 1.1);
-    k.paradox_scale = static_cast<float>(std::sqrt(s.rho_c / 80));
-    k.range = static_cast<float>(r);
-    k.range_twice = static_cast<float>(2 * r);
-    k.range_twice_inverse = static_cast<float>(1 / (2 * r));
-    k.shell_slope = static_cast<float>(s.rho_i / r);
-    k.shell_offset = static_cast<float>(-s.rho_i * s.epsilon_ratio);
-  }
-  q.outer = static_cast<float>(outer);
-  q.ring[kOuter] = ring(outer);
-  q.ring[kInner] = ring(std::max(quantise(s.min_range_m / c, t.lattice), 1 / t.lattice));
-  q.ring[kEdge] = ring(edge);
+  q.contextual = {s.reliability_if_empty != 1 || s.reliability_if_occupied != 1,
+                  static_cast<float>(s.reliability_if_empty), static_cast<float>(s.reliability_if_occupied),
+                  static_cast<float>(1 - s.reliability_if_empty), static_cast<float>(1 - s.reliability_if_occupied)};
+  compile_model(t, range_m, q);
   return q;
 }
 

@@ -108,6 +108,7 @@ std::uint64_t run(const DoublePlanes& p, std::size_t begin, std::size_t end) {
 std::uint64_t dense_double(int rule, const DoublePlanes& p, std::size_t begin, std::size_t end) {
   switch (static_cast<RuleKernel>(rule)) {
     case kDempster:
+    case kDempsterLog:
       return run<Closed<scalar::Dempster, dropped>>(p, begin, end);
     case kPcr2:
       return run<Closed<scalar::Pcr2, gave_back>>(p, begin, end);

@@ -1,235 +1,145 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop over the micro-tiles of one tile for one cone: centre → polar → model → discount → rule → store, in
-// registers.
+// The loop over the micro-tiles of one cone: centre → polar → model → discount → rule → store, in registers.
 #pragma once
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/polar.hpp"
+#include "kernels/cell/poly.hpp"
+#include "kernels/cell/state.hpp"
 
+#include "kernels/row/cone_cells.hpp"
 #include "kernels/row/kernel_table.hpp"
 
 EVIGRID_CELL_BEGIN
 
-inline constexpr int kRowArrays = 11;
+/// The planes behind the sum of conflict, of maps that keep them. Out of line: the others must not pay for it.
+template <class = void>
+__attribute__((noinline)) void keep_history(float* const* conflict, int part, const Lanes::M& inside, const Lanes::V& k,
+                                            const RuleArgs& args) {
+  float* at[Lanes::kMicros];
+  const auto next_plane = [&](int n) EVIGRID_LAMBDA {
+    for (int m = 0; m < Lanes::kMicros; ++m) at[m] = conflict[m] + n * kMicroCells;
+  };
+  if (args.con) {  // −ln(1 − k), of total conflict 27.6
+    next_plane(1);
+    const Lanes::V one(1.0f), step = log_one_plus(k / max_of(one - k, Lanes::V(1e-12f)));
+    Lanes::store(at, part, inside, Lanes::load(at, part) + step);
+  }
+  if (args.last) {
+    next_plane(args.con ? 2 : 1);
+    Lanes::store(at, part, inside, k);
+  }
+}
 
-/// Offsets and row terms of a tile for one reading; lane i of a micro-tile is cell (i % 4, i / 4).
-struct ConeFrame {
-  alignas(64) float dx[kMicrosPerSide][kMicroCells];
-  alignas(64) float rows[kRowArrays][kMicrosPerSide][kMicroCells];
-
-  void build(const TileArgs& a, const ConeReading& q) {
-    alignas(64) float dy[kMicrosPerSide][kMicroCells];
-    for (int m = 0; m < kMicrosPerSide; ++m) {
-      for (int i = 0; i < kMicroCells; ++i) {
-        dx[m][i] = a.x0 + static_cast<float>(4 * m + i % 4);
-        dy[m][i] = a.y0 + static_cast<float>(4 * m + i / 4);
+/// Cells of the planes of one step: those of the state, then, where it is kept, the sum of conflict.
+template <class State, bool kConflict>
+struct CellIo {
+  static constexpr int kPlanes = State::kPlanes;
+  float* plane[kPlanes + 1][Lanes::kMicros];
+  EVIGRID_FN explicit CellIo(float* const* cell) {
+    for (int p = 0; p < kPlanes + 1; ++p) {
+      for (int m = 0; m < Lanes::kMicros; ++m) plane[p][m] = cell[m] + p * kMicroCells;
+    }
+  }
+  template <class S>
+  EVIGRID_FN void fuse(int part, const S& source, const Lanes::M& inside, const RuleArgs& args, Stats& stats,
+                       Lanes::V& max_k) const {
+    Lanes::V old[kPlanes];
+    for (int p = 0; p < kPlanes; ++p) old[p] = Lanes::load(plane[p], part);
+    const auto next = State::template update<kConflict>(old, source, args);
+    for (int p = 0; p < kPlanes; ++p) Lanes::store(plane[p], part, inside, next.plane[p]);
+    const Lanes::V kk = select(inside, next.k, Lanes::V(0.0f));
+    if constexpr (kConflict) {
+      float* const* k = plane[kPlanes];
+      Lanes::store(k, part, inside, Lanes::load(k, part) + kk);
+      if (args.con || args.last) [[unlikely]] {
+        const Lanes::M where = inside;  // copies: the originals stay in registers
+        const Lanes::V what = kk;
+        keep_history(k, part, where, what, args);
       }
     }
-    // Whole packs that cover the bands in use; a band is 16 floats.
-    const int first = (a.micros[0] / kMicrosPerSide) / Lanes::kMicros * Lanes::kMicros * kMicroCells;
-    const int last = (a.micros[a.micro_count - 1] / kMicrosPerSide + 1) * kMicroCells;
-    for (int i = first; i < last; i += Lanes::kLanes) {
-      const RowTerms<Lanes::V> r = row_terms(q, Lanes::load_flat(&dy[0][0] + i));
-      const Lanes::V* terms[kRowArrays] = {&r.yy,         &r.wl,         &r.el,         &r.wr,
-                                           &r.er,         &r.ring_hi[0], &r.ring_hi[1], &r.ring_hi[2],
-                                           &r.ring_lo[0], &r.ring_lo[1], &r.ring_lo[2]};
-      for (int t = 0; t < kRowArrays; ++t) Lanes::store_flat(&rows[t][0][0] + i, *terms[t]);
-    }
-  }
-};
-
-/// The micro-tiles of one step: pointers to their cells, offsets and row terms. Missing ones point at a spare.
-struct ConeStep {
-  float* cell[Lanes::kMicros];
-  const float* dx[Lanes::kMicros];
-  int band[Lanes::kMicros];
-
-  EVIGRID_FN RowTerms<Lanes::V> terms(const ConeFrame& f, int part) const {
-    RowTerms<Lanes::V> r;
-    Lanes::V* out[kRowArrays] = {&r.yy,         &r.wl,         &r.el,         &r.wr,
-                                 &r.er,         &r.ring_hi[0], &r.ring_hi[1], &r.ring_hi[2],
-                                 &r.ring_lo[0], &r.ring_lo[1], &r.ring_lo[2]};
-    for (int t = 0; t < kRowArrays; ++t) {
-      const float* at[Lanes::kMicros];
-      for (int m = 0; m < Lanes::kMicros; ++m) at[m] = f.rows[t][band[m]];
-      *out[t] = Lanes::load(at, part);
-    }
-    return r;
-  }
-};
-
-/// Cells of the planes of one step.
-template <bool kConflict>
-struct CellIo {
-  float* e[Lanes::kMicros];
-  float* o[Lanes::kMicros];
-  float* u[Lanes::kMicros];
-  float* k[Lanes::kMicros];
-  EVIGRID_FN explicit CellIo(float* const* cell) {
-    for (int m = 0; m < Lanes::kMicros; ++m) {
-      e[m] = cell[m];
-      o[m] = cell[m] + kMicroCells;
-      u[m] = cell[m] + 2 * kMicroCells;
-      k[m] = kConflict ? cell[m] + 3 * kMicroCells : nullptr;
-    }
-  }
-  template <class Rule, class S>
-  EVIGRID_FN void fuse(int part, const S& source, const Lanes::M& inside, Stats& stats, Lanes::V& max_k) const {
-    const Cell<Lanes::V> old{Lanes::load(e, part), Lanes::load(o, part), Lanes::load(u, part)};
-    const auto next = Rule::template combine<MapState>(old, source);
-    Lanes::store(e, part, inside, next.cell.a);
-    Lanes::store(o, part, inside, next.cell.b);
-    Lanes::store(u, part, inside, next.cell.u);
-    const Lanes::V kk = select(inside, next.k, Lanes::V(0.0f));
-    if constexpr (kConflict) Lanes::store(k, part, inside, Lanes::load(k, part) + kk);
     max_k = max_of(max_k, kk);
     stats.cells += static_cast<std::uint64_t>(Lanes::count(inside));
-    if constexpr (Rule::kTotalPossible) {
+    if constexpr (State::kTotalPossible) {
       const auto total = both(inside, next.total);
       if (Lanes::any(total)) stats.total_conflicts += static_cast<std::uint64_t>(Lanes::count(total));
     }
   }
 };
 
-template <class Rule, class Model, bool kConflict>
-void fuse_cone_planes(const TileArgs& a, const ConeReading& q_in, Stats& stats) {
-  const ConeReading q = q_in;  // a local copy: no store into the map can alias it
-  ConeFrame frame;
-  frame.build(a, q);
-  constexpr int kPlanes = kConflict ? 4 : 3;
+/// The micro-tiles of a step: their cells, and where their offsets begin. Missing ones get the spare.
+struct ConeStep {
+  float* cell[Lanes::kMicros];
+  ConeStep(const ZoneMicros& z, int i, float* spare) {
+    for (int m = 0; m < Lanes::kMicros; ++m) cell[m] = i + m < z.count ? z.cells[i + m] : spare;
+  }
+};
+
+template <class State, class Model, Paradox kParadox, ConeZone kZone, bool kConflict>
+void fuse_zone(const ConeArgs& a, const ZoneMicros& z, const ConeReading& q, const ConeLanes& lanes, Stats& stats,
+               Lanes::V& max_k_out) {
+  constexpr int kPlanes = State::kPlanes + (kConflict ? 1 : 0);
   constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
-  alignas(64) float spare[4 * kMicroCells] = {};
-  alignas(64) float nowhere[kMicroCells];  // offsets far outside every cone
-  for (float& f : nowhere) f = 1e6f;
-  Lanes::V max_k(0.0f);
-  for (int i = 0; i < a.micro_count; i += Lanes::kMicros) {
-    ConeStep step;
-    for (int m = 0; m < Lanes::kMicros; ++m) {
-      const bool there = i + m < a.micro_count;
-      const int micro = a.micros[there ? i + m : i];
-      step.cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * kMicroCells * kPlanes : spare;
-      step.dx[m] = there ? frame.dx[micro % kMicrosPerSide] : nowhere;
-      step.band[m] = micro / kMicrosPerSide;
-    }
-    const CellIo<kConflict> io(step.cell);
-    for (int part = 0; part < kParts; ++part) {
-      const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
-      if (!Lanes::any(at.inside)) continue;
-      const auto source = discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt));
-      io.template fuse<Rule>(part, source, at.inside, stats, max_k);
-    }
-  }
-  const float k = Lanes::reduce_max(max_k);
-  if (k > stats.max_conflict) stats.max_conflict = k;
-}
-
-template <class Rule, class Model>
-void fuse_cone(const TileArgs& a, const ConeReading& q, Stats& stats) {
-  if (a.micro_count == 0) return;
-  if (a.conflict_plane) {
-    fuse_cone_planes<Rule, Model, true>(a, q, stats);
-  } else {
-    fuse_cone_planes<Rule, Model, false>(a, q, stats);
-  }
-}
-
-/// A source as memory holds it, and back: a plain one keeps its kind, so that both paths run the same functions.
-template <class V>
-EVIGRID_FN Source<V> widen(const Source<V>& m) {
-  return m;
-}
-template <class V>
-EVIGRID_FN Source<V> widen(const PlainSource<V>& m) {
-  return {m.x, m.y, m.v, V(0.0f), V(1.0f)};
-}
-template <class Kind, class V>
-EVIGRID_FN Kind narrow(const Source<V>& m) {
-  if constexpr (requires(Kind k) { k.z; }) {
-    return m;
-  } else {
-    return {m.x, m.y, m.v};
-  }
-}
-template <class Model>
-using SourceOf = decltype(Model::measure(ConeReading{}, Polar<Lanes::V>{}));
-
-/// The same functions, cut in two: masses to memory …
-template <class Model>
-void measure_cone(const TileArgs& a, const ConeReading& q, Measured& out) {
-  if (a.micro_count == 0) return;
-  ConeFrame frame;
-  frame.build(a, q);
-  constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
-  for (int i = 0; i < a.micro_count; i += Lanes::kMicros) {
-    ConeStep step;
-    for (int m = 0; m < Lanes::kMicros; ++m) {
-      const int micro = a.micros[i + m < a.micro_count ? i + m : i];
-      step.dx[m] = frame.dx[micro % kMicrosPerSide];
-      step.band[m] = micro / kMicrosPerSide;
-    }
-    std::uint64_t bits = 0;
-    for (int part = 0; part < kParts; ++part) {
-      const auto at = locate(q, Lanes::load(step.dx, part), step.terms(frame, part));
-      const Source<Lanes::V> s =
-          widen(discount(Model::measure(q, at.polar), Lanes::V(q.reliability), Lanes::V(q.doubt)));
-      alignas(64) float masses[5][Lanes::kLanes];
-      const Lanes::V* const from[5] = {&s.x, &s.y, &s.v, &s.z, &s.s};
-      float* const to[5] = {out.x, out.y, out.v, out.z, out.s};
-      for (int p = 0; p < 5; ++p) {
-        Lanes::store_flat(masses[p], *from[p]);
-        for (int lane = 0; lane < Lanes::kLanes; ++lane) {
-          const int at_micro = i + lane / kMicroCells;
-          if (at_micro >= a.micro_count) break;
-          to[p][a.micros[at_micro] * kMicroCells + (kParts > 1 ? part : lane % kMicroCells)] = masses[p][lane];
-        }
+  alignas(64) float spare[kMostPlanes * kMicroCells] = {};
+  alignas(64) float x[FirstCells::kMost], y[FirstCells::kMost];
+  FirstCells first;
+  Lanes::V max_k = max_k_out;
+  for (int begin = 0; begin < z.count; begin += FirstCells::kMost) {
+    const int n = z.count - begin < FirstCells::kMost ? z.count - begin : FirstCells::kMost;
+    first.fill<kAsksExcess<Model>>(q, z.x + begin, z.y + begin, n);
+    for (int i = 0; i < n; ++i) x[i] = z.x[begin + i], y[i] = z.y[begin + i];
+    for (int i = n; i % Lanes::kMicros != 0; ++i) x[i] = y[i] = 1e6f;
+    for (int i = 0; i < n; i += Lanes::kMicros) {
+      const ConeStep step(z, begin + i, spare);
+      for (int m = 0; m < Lanes::kMicros; ++m) {
+        const float* next = z.cells[begin + i + m + kConeAhead - Lanes::kMicros];
+        for (int p = 0; p < kPlanes; ++p) __builtin_prefetch(next + p * kMicroCells);
       }
-      bits |= Lanes::bits(at.inside) << (kParts > 1 ? part : 0);
-    }
-    for (int m = 0; m < Lanes::kMicros && i + m < a.micro_count; ++m) {
-      out.inside[a.micros[i + m]] = static_cast<std::uint16_t>(bits >> (16 * m));
+      const CellIo<State, kConflict> io(step.cell);
+      for (int part = 0; part < kParts; ++part) {
+        Polar<Lanes::V> at;
+        const auto inside = locate<kZone, kAsksExcess<Model>>(q, lanes, first, x, y, i, part, at);
+        if (!Lanes::any(inside)) continue;
+        io.fuse(part, source_of<kParadox, Model, kZone>(q, at), inside, a.rule, stats, max_k);
+      }
     }
   }
+  max_k_out = max_k;
 }
 
-/// … and masses from memory into the map.
-template <class Rule, class Model, bool kConflict>
-void combine_measured_planes(const TileArgs& a, const Measured& in, Stats& stats) {
-  constexpr int kPlanes = kConflict ? 4 : 3;
-  constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
-  alignas(64) float spare[4 * kMicroCells] = {}, none[kMicroCells] = {};
+/// Every micro-tile cell by cell, whatever its zone: models that know none, and contextual discounts.
+template <class State, class Model, bool kConflict>
+void fuse_alike(const ConeArgs& a, const ConeReading& q, const ConeLanes& lanes, Stats& stats, Lanes::V& max_k) {
+  for (const ZoneMicros& z : a.zone) fuse_zone<State, Model, kConsumed, kRim, kConflict>(a, z, q, lanes, stats, max_k);
+}
+
+template <class State, class Model, bool kConflict>
+void fuse_cone_planes(const ConeArgs& a, const ConeReading& q_in, Stats& stats) {
+  constexpr Paradox kParadox = paradox_of<State>();
+  const ConeReading q = q_in;  // a local copy: no store into the map can alias it
+  const ConeLanes lanes(q);
   Lanes::V max_k(0.0f);
-  for (int i = 0; i < a.micro_count; i += Lanes::kMicros) {
-    float* cell[Lanes::kMicros];
-    alignas(64) float flag[Lanes::kMicros][kMicroCells];
-    const float* source[6][Lanes::kMicros];
-    for (int m = 0; m < Lanes::kMicros; ++m) {
-      const bool there = i + m < a.micro_count;
-      const int micro = a.micros[there ? i + m : i];
-      cell[m] = there ? a.cells + static_cast<std::size_t>(micro) * kMicroCells * kPlanes : spare;
-      const float* const planes[5] = {in.x, in.y, in.v, in.z, in.s};
-      for (int p = 0; p < 5; ++p) source[p][m] = there ? planes[p] + micro * kMicroCells : none;
-      for (int c = 0; c < kMicroCells; ++c) flag[m][c] = there && (in.inside[micro] >> c & 1) != 0 ? 1.0f : 0.0f;
-      source[5][m] = flag[m];
+  if constexpr (kTold<kParadox, Model>) {
+    constexpr ConeZone kNearest = Model::kHasFreeZone && kParadox == kGivenBack ? kFree : kWithin;
+    if (q.contextual.used) [[unlikely]] {
+      fuse_alike<State, Model, kConflict>(a, q, lanes, stats, max_k);
+    } else {
+      fuse_zone<State, Model, kParadox, kNearest, kConflict>(a, a.zone[kFree], q, lanes, stats, max_k);
+      fuse_zone<State, Model, kParadox, kWithin, kConflict>(a, a.zone[kWithin], q, lanes, stats, max_k);
+      fuse_zone<State, Model, kParadox, kRim, kConflict>(a, a.zone[kRim], q, lanes, stats, max_k);
     }
-    const CellIo<kConflict> io(cell);
-    for (int part = 0; part < kParts; ++part) {
-      const auto inside = Lanes::load(source[5], part) > Lanes::V(0.5f);
-      if (!Lanes::any(inside)) continue;
-      const Source<Lanes::V> s{Lanes::load(source[0], part), Lanes::load(source[1], part), Lanes::load(source[2], part),
-                               Lanes::load(source[3], part), Lanes::load(source[4], part)};
-      io.template fuse<Rule>(part, narrow<SourceOf<Model>>(s), inside, stats, max_k);
-    }
+  } else {
+    fuse_alike<State, Model, kConflict>(a, q, lanes, stats, max_k);
   }
   const float k = Lanes::reduce_max(max_k);
   if (k > stats.max_conflict) stats.max_conflict = k;
 }
 
-template <class Rule, class Model>
-void combine_measured(const TileArgs& a, const Measured& in, Stats& stats) {
-  if (a.micro_count == 0) return;
+template <class State, class Model>
+void fuse_cone(const ConeArgs& a, const ConeReading& q, Stats& stats) {
   if (a.conflict_plane) {
-    combine_measured_planes<Rule, Model, true>(a, in, stats);
+    fuse_cone_planes<State, Model, true>(a, q, stats);
   } else {
-    combine_measured_planes<Rule, Model, false>(a, in, stats);
+    fuse_cone_planes<State, Model, false>(a, q, stats);
   }
 }
 

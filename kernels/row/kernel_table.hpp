@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // All that the engine knows of the kernels: plain pointers, chosen once per map. A tile is 64 × 64 cells in 16 × 16
 // micro-tiles of 4 × 4 cells (row-major, both); a micro-tile holds its planes side by side: 16 e, 16 o, 16 u and, where
-// the map keeps it, 16 sums of conflict. 64-byte aligned.
+// the map keeps it, 16 sums of conflict. 64-byte aligned. Rules whose state is not (e, o, u) have other planes
+// (kernels/cell/state.hpp); read_out gives their masses.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-#include "kernels/row/reading.hpp"
+#include "kernels/row/compile_reading.hpp"
 
 namespace evigrid::kernels {
 
@@ -23,16 +24,17 @@ enum RuleKernel : int {
   kDsmh,
   kPcr1,
   kPcr4,
-  kRules,
-  kConjunctive = kRules,
-  kDisjunctive,
-  kMurphy,
+  kConjunctive,
   kCautious,
+  kMurphy,
   kBayes,
   kFuzzy,
+  kDempsterLog,
+  kRules,
+  kDisjunctive = kRules,
   kBatchRules
 };
-inline constexpr int kConeModels = 2;  // hughes1992, li2014
+inline constexpr int kMostPlanes = 8;  // of one cell
 
 struct Stats {
   std::uint64_t cells = 0;            // updates
@@ -40,26 +42,78 @@ struct Stats {
   float max_conflict = 0;
 };
 
-/// One reading on one tile.
+/// What a rule does with a source's mass on empty ∩ occupied: gives it back to both, drops it, or takes it in.
+enum Paradox : int { kGivenBack, kDropped, kConsumed };
+
+/// Parts of a cone's micro-tiles, by what all their cells are known to be beforehand. A shortcut only: the general
+/// part may hold any micro-tile, and no bit of the map depends on where one is listed.
+enum ConeZone : int {
+  kFree,    // within free_radius: certain to be empty, before the discount
+  kWithin,  // within within_radius: between the rings, so that only the two edges are left to be tested
+  kRim,     // anything
+  kConeZones
+};
+
+/// The micro-tiles of one zone: where their cells lie, and the offset of their first cell centre from the apex, exact.
+/// `cells` is readable for kConeAhead entries more: the cells of what comes next are fetched ahead.
+struct ZoneMicros {
+  float* const* cells = nullptr;
+  const float *x = nullptr, *y = nullptr;
+  int count = 0;
+};
+inline constexpr int kConeAhead = 24;
+
+/// What some rules ask of the map beside the cell and the source.
+struct RuleArgs {
+  float sign = 1;              // −1 takes a reading back, from states that are sums
+  float unknown_share = 0.5f;  // bayes: how much of m(unknown) each likelihood gets, ½ for BetP, 1 for PlP
+  float least_log_odds = -6.9f, most_log_odds = 6.9f;  // bayes
+  bool con = false, last = false;  // planes behind the sum of conflict: Con, and k of the last update
+};
+
+/// One reading on micro-tiles of any number of tiles.
+struct ConeArgs {
+  ZoneMicros zone[kConeZones];
+  int planes = 3;               // of a cell, all of them
+  bool conflict_plane = false;  // add k to the plane behind the state's
+  RuleArgs rule{};
+};
+
+/// The micro-tiles of a cone, four rows of cells at a time: in a band, columns cut[0] … cut[5] (whole numbers) part
+/// rim, within, free, within, rim. Column and band 0 begin at the offset (x0, y0) from the apex.
+struct ConeBands {
+  static constexpr int kCuts = 6;
+  int count = 0, capacity = 0;  // capacity: a multiple of 64
+  float* cut = nullptr;         // cut[c · capacity + band]
+};
+
+/// The micro-tiles of a tile for one fan: those with nothing but empty cells, those to be looked at cell by cell, and
+/// of the latter those near the apex or behind the fan, whose cells find their beams by an angle of their own. Numbers
+/// of micro-tiles are floats here, as the lanes write them. Room for whole packs behind each list.
+struct FanMicros {
+  static constexpr int kRoom = kMicrosPerTile + 64;
+  int empty_count = 0, edge_count = 0, near_count = 0;  // edge_count: with the near ones
+  alignas(64) float empty[kRoom], edge[kRoom], near[kRoom];
+  // Of the edge micro-tiles that are not near: direction of the centre, its place among the beams, and the lowest beam
+  // that any of its cells can have.
+  alignas(64) float turn_x[kRoom], turn_y[kRoom], place[kRoom], lowest[kRoom];
+};
+
+/// One fan on one tile.
 struct TileArgs {
   float* cells = nullptr;
-  bool conflict_plane = false;
-  float x0 = 0, y0 = 0;                  // offset of the tile's first cell centre from the apex, exact
-  const std::uint8_t* micros = nullptr;  // micro-tiles that may be touched; of a cone: ascending
-  int micro_count = 0;
-  const std::uint8_t* empty_micros = nullptr;  // of a fan: micro-tiles wholly in its empty part
-  int empty_count = 0;
+  int planes = 3;               // of a cell, all of them
+  bool conflict_plane = false;  // add k to the plane behind the state's
+  RuleArgs rule{};
+  float x0 = 0, y0 = 0;  // offset of the tile's first cell centre from the apex, exact
+  const FanMicros* fan = nullptr;
 };
 
-/// The micro-tiles of a tile for one fan: those with nothing but empty cells, and those to be looked at cell by cell.
-struct FanMicros {
-  std::uint8_t empty[kMicrosPerTile], edge[kMicrosPerTile];
-  int empty_count = 0, edge_count = 0;
-};
-
-/// Masses of one reading on the listed micro-tiles, kept apart from the map: the unfused path.
+/// Masses of one reading on the micro-tiles of its general zone, in their order, kept apart from the map: the unfused
+/// path.
 struct Measured {
-  alignas(64) float x[4096], y[4096], v[4096], z[4096], s[4096];
+  static constexpr int kParts = 6;
+  alignas(64) float part[kParts][4096];  // x, y, v, z, s and what else a source knows (Pack in cell/mass.hpp)
   std::uint16_t inside[256];
 };
 
@@ -69,7 +123,15 @@ struct DensePlanes {
   float* cc = nullptr;      // mass on empty ∩ occupied, of the rules that leave one; may be null
 };
 
-/// The same in double, with the operands' masses on empty ∩ occupied (null: none).
+/// Masses at 16 bits: e and o in steps of 1/65535, the unknown is the rest. Not of rules that leave a mass on
+/// empty ∩ occupied, but for fuzzy, whose operands need no unknown.
+struct Dense16Planes {
+  const std::uint16_t *ae, *ao, *be, *bo;
+  std::uint16_t *ce, *co;
+  float* k;  // may be null
+};
+
+/// DensePlanes in double, with the operands' masses on empty ∩ occupied (null: none).
 struct DoublePlanes {
   const double *ae, *ao, *au, *ac, *be, *bo, *bu, *bc;
   double *ce, *co, *cu, *cc, *k;  // cc and k may be null
@@ -78,19 +140,25 @@ struct DoublePlanes {
 struct KernelTable {
   std::string_view name;
   int lanes;  // floats in one vector
-  void (*fuse_cone[kRules][kConeModels])(const TileArgs&, const ConeReading&, Stats&);
+  void (*cone_bands)(const ConeReading&, float x0, float y0, ConeBands&);
+  void (*fuse_cone[kRules][kConeModels])(const ConeArgs&, const ConeReading&, Stats&);
+  void (*compile_fan)(const FanType&, const SensorPose&, Fan&);
   void (*select_fan)(const FanReading&, float x0, float y0, FanMicros&);  // (x0, y0) as in TileArgs
   void (*fuse_fan[kRules])(const TileArgs&, const FanReading&, Stats&);
-  void (*measure_cone[kConeModels])(const TileArgs&, const ConeReading&, Measured&);
-  void (*combine_measured[kRules][kConeModels])(const TileArgs&, const Measured&, Stats&);
+  void (*measure_cone[kRules][kConeModels])(const ConeArgs&, const ConeReading&, Measured&);
+  void (*combine_measured[kRules][kConeModels])(const ConeArgs&, const Measured&, Stats&);
+  /// Masses of `micros` micro-tiles, one after the other from `cells` on: 16 e, 16 o, 16 u, 16 c each, to `out`; both
+  /// 64-byte aligned.
+  void (*read_out[kRules])(const float* cells, int planes, int micros, float* out);
   std::uint64_t (*dense[kBatchRules])(const DensePlanes&, std::size_t begin, std::size_t end);
+  std::uint64_t (*dense16[kBatchRules])(const Dense16Planes&, std::size_t begin, std::size_t end);
 };
 
 /// One point of a cone, by the scalar functions. Arguments as Polar (cells).
 struct PointMass {
   float x, y, v, z, s;
 };
-PointMass measure_point(int cone_model, const ConeReading&, float nl, float nr, float d2, float edge);
+PointMass measure_point(int cone_model, const ConeReading&, float nl, float nr, float d2, float edge, float outer);
 
 /// The dense combination in double, scalar. Answers how many pairs were in total conflict.
 std::uint64_t dense_double(int rule, const DoublePlanes&, std::size_t begin, std::size_t end);

@@ -32,6 +32,13 @@ inline Direction direction(double angle) noexcept {
   const SinCos sc = portable_sincos(angle);
   return direction(sc.cos, sc.sin);
 }
+/// The same on multiples of 2^-24, for the edges of cones: their products with offsets are then exact sums of two
+/// floats (cone_lanes.hpp).
+inline Direction edge_direction(double angle) noexcept {
+  const Direction d = direction(angle);
+  const auto on_grid = [](float t) { return static_cast<float>(nearest_integer(t * 16777216.0) / 16777216.0); };
+  return {on_grid(d.x), on_grid(d.y)};
+}
 
 template <class Reading>
 void place(Reading& q, const SensorPose& pose, double cell_m, double lattice) noexcept {

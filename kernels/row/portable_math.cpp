@@ -54,4 +54,16 @@ double portable_tanh(double x) noexcept {
   return (e - 1) / (e + 1);
 }
 
+double portable_log(double x) noexcept {
+  if (!(x > 0)) return -HUGE_VAL;
+  int n = 0;
+  double m = std::frexp(x, &n);  // exact; m in [½, 1)
+  if (m < 0.70710678118654752440) m *= 2, --n;
+  const double s = (m - 1) / (m + 1), s2 = s * s;  // ln m = 2 artanh s, |s| ≤ 0.172
+  double sum = 0;
+  for (int k = 23; k >= 3; k -= 2) sum = (1.0 / k + sum) * s2;
+  const double ln = 2 * s + 2 * s * sum;
+  return std::fma(n, 6.93147180559945286227e-01, std::fma(n, 2.31904681384629955842e-17, ln));
+}
+
 }  // namespace evigrid::kernels

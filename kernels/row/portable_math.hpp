@@ -15,5 +15,7 @@ double portable_asin(double x) noexcept;
 /// |x| ≤ 700.
 double portable_exp(double x) noexcept;
 double portable_tanh(double x) noexcept;
+/// Natural logarithm of a normal x > 0; −inf at 0.
+double portable_log(double x) noexcept;
 
 }  // namespace evigrid::kernels

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // One target's table: every rule × model expanded from the same text, in several files, so that they compile side by
-// side: the models and the rules of table_*.cpp here, two more groups of rules in table_*_pcr.cpp and table_*_pcr14.cpp
-// (pcr_table.hpp). Included last.
+// side: the models and the rules of table_*.cpp here, more groups of rules in table_*_pcr.cpp, table_*_pcr14.cpp and
+// table_*_states.cpp (fill_*.hpp). Included last.
 #pragma once
 
-#include "kernels/cell/rule_batch.hpp"
 #include "kernels/cell/rule_dempster.hpp"
 #include "kernels/cell/rule_yager.hpp"
+#include "kernels/row/compile_fan.hpp"
+#include "kernels/row/cone_bands.hpp"
 #include "kernels/row/rule_table.hpp"
 #include "kernels/row/select_fan.hpp"
 
@@ -16,20 +17,16 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   KernelTable t{};
   t.name = name;
   t.lanes = lanes;
+  t.compile_fan = compile_fan;
   t.select_fan = select_fan;
-  t.measure_cone[0] = measure_cone<ModelHughes1992>;
-  t.measure_cone[1] = measure_cone<ModelLi2014>;
+  t.cone_bands = cone_bands;
   fill_rule<Dempster>(t, kDempster);
   fill_rule<Yager>(t, kYager);
   fill_paradox_rule<Dsmh>(t, kDsmh, kYager);
-  t.dense[kConjunctive] = dense<ConjunctiveRule>;
-  t.dense[kDisjunctive] = dense<Disjunctive>;
-  t.dense[kMurphy] = dense<Murphy>;
-  t.dense[kCautious] = dense<Cautious>;
-  t.dense[kBayes] = dense<Bayes>;
-  t.dense[kFuzzy] = dense<Fuzzy>;
   fill_pcr(t);
   fill_pcr14(t);
+  fill_states(t);
+  EVIGRID_BATCH_NAMESPACE::fill_batch(t);
   return t;
 }
 

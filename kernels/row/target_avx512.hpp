@@ -11,7 +11,13 @@
 #include "hwy/detect_targets.h"
 #undef HWY_TARGET
 #define HWY_TARGET HWY_AVX3
+#define EVIGRID_BATCH_NAMESPACE avx512_batch
+#ifdef EVIGRID_BATCH
+#define EVIGRID_TARGET_NAMESPACE EVIGRID_BATCH_NAMESPACE
+#include "kernels/cell/lane_vector.hpp"
+#else
 #define EVIGRID_TARGET_NAMESPACE avx512
 #define EVIGRID_TARGET_UNROLL 4
 #define EVIGRID_LAMBDA HWY_ATTR
 #include "kernels/cell/lane_highway.hpp"
+#endif

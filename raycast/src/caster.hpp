@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "bucket_grid.hpp"
 #include "embree_device.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "placed.hpp"
@@ -24,17 +25,15 @@ inline bool may_reach(Vec2 centre, double radius_m, double range_m, const Wedge*
 }
 
 struct Caster {
-  Caster(const World& fixed, std::span<const World> shapes);
+  Caster(const World& fixed, std::span<const World> shapes, Index index);
 
   EmbreeDevice device;
   SurfaceIndex world;
+  std::unique_ptr<const BucketGrid> buckets;  ///< of the world, for cones; none: they go by `world` as well
   std::vector<std::unique_ptr<SurfaceIndex>> movers;
 
   /// Throws when there is not one finite placement per mover (or none at all).
   void check(Placements placements) const;
-
-  [[nodiscard]] Echo cone(const ConeQuery& q, Placements placements) const;
-  [[nodiscard]] double nearest_visible_m(const ConeQuery& q, const Wedge& wedge, Placements placements) const;
 
   /// The movers that reach into the wedge (everywhere without one) nearer than range_m.
   [[nodiscard]] std::vector<Standing> around(Vec2 point, double range_m, const Wedge* wedge,

@@ -28,6 +28,8 @@ class SurfaceIndex {
   SurfaceIndex& operator=(const SurfaceIndex&) = delete;
 
   [[nodiscard]] std::size_t size() const { return surfaces_.size(); }
+  [[nodiscard]] const std::vector<Surface>& surfaces() const { return surfaces_; }
+  [[nodiscard]] SurfaceName name(std::uint32_t i) const { return name_of(owner_, i); }
   [[nodiscard]] const Surface& surface(std::uint32_t i) const { return surfaces_[i]; }
   /// Radius of the circle around the origin of the frame that holds all surfaces.
   [[nodiscard]] double reach_m() const { return reach_m_; }

@@ -5,57 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "segment.hpp"
 #include "tolerance.hpp"
 
 namespace evigrid::raycast {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Rounding of a cross product of two directions.
-constexpr double kRounding = 1e-15;
-
-/// Part [low, high] of a segment a + u·(b − a), u ∈ [0, 1].
-struct Range {
-  double low = 0, high = 1;
-  [[nodiscard]] bool empty() const { return low > high; }
-};
-
-/// Keeps the u with f0 + u·df >= 0.
-void keep_non_negative(Range& r, double f0, double df) {
-  if (df > 0)
-    r.low = std::max(r.low, -f0 / df);
-  else if (df < 0)
-    r.high = std::min(r.high, -f0 / df);
-  else if (f0 < 0)
-    r.high = -1;
-}
-
-Range clip(const Surface& s, Vec2 edge, const Wedge& w) {
-  Range r;
-  keep_non_negative(r, cross(w.arc.right, s.a), cross(w.arc.right, edge));
-  keep_non_negative(r, cross(s.a, w.arc.left), cross(edge, w.arc.left));
-  keep_non_negative(r, dot(w.axis, s.a), dot(w.axis, edge));  // a cone of opening 0 is not a line
-  return r;
-}
-
-/// Parameter of the foot of the perpendicular, and the distance of the line.
-struct Foot {
-  double u, height;
-};
-Foot foot(const Surface& s, Vec2 edge) {
-  const double square = dot(edge, edge);
-  return {-dot(s.a, edge) / square, std::abs(cross(s.a, edge)) / std::sqrt(square)};
-}
 
 bool touches_origin(const Surface& s) {
-  if (s.kind == Surface::Kind::circle) return std::abs(length(s.a) - s.radius) <= kContact_m;
-  const Vec2 edge = s.b - s.a;
-  const double square = dot(edge, edge);
-  const double u = square > 0 ? std::clamp(-dot(s.a, edge) / square, 0.0, 1.0) : 0;
-  return length(s.a + u * edge) <= kContact_m;
+  return s.kind == Surface::Kind::circle ? std::abs(length(s.a) - s.radius) <= kContact_m
+                                         : segment_touches_origin(s.a, s.b - s.a);
 }
-
-bool is_point(Vec2 edge) { return length(edge) <= kContact_m; }
 
 Vec2 clamped(const Arc& arc, Vec2 u) {
   if (contains(arc, u)) return u;
@@ -145,10 +106,6 @@ Piece point_piece(Vec2 p) { return {{unit(p), unit(p)}, p}; }
 
 }  // namespace
 
-bool contains(const Arc& arc, Vec2 u) {
-  return cross(arc.right, u) >= -kRounding && cross(u, arc.left) >= -kRounding && dot(u, arc.right + arc.left) >= 0;
-}
-
 std::optional<Arc> intersection(const Arc& a, const Arc& b) {
   Arc common;
   if (contains(b, a.right))
@@ -166,29 +123,26 @@ std::optional<Arc> intersection(const Arc& a, const Arc& b) {
   return common;
 }
 
-Wedge make_wedge(double yaw_rad, double aperture_rad) {
+HalfOpening::HalfOpening(double opening_rad) : aperture_rad(opening_rad) {
+  const double half = opening_rad / 2 + kEdgeSlack_rad;
+  cosine = std::cos(half), sine = std::sin(half);
+}
+
+Wedge make_wedge(double yaw_rad, const HalfOpening& half) {
   const Vec2 axis{std::cos(yaw_rad), std::sin(yaw_rad)};
-  const double half = aperture_rad / 2 + kEdgeSlack_rad;
-  const double c = std::cos(half), s = std::sin(half);
-  return {axis, {rotated(axis, c, -s), rotated(axis, c, s)}};
+  return {axis, {rotated(axis, half.cosine, -half.sine), rotated(axis, half.cosine, half.sine)}};
 }
 
 std::optional<Vec2> nearest_in_wedge(const Surface& s, const Wedge& w) {
+  if (s.kind == Surface::Kind::segment) return nearest_of_segment(s.a, s.b, w);
   if (touches_origin(s)) return Vec2{0, 0};
-  if (s.kind == Surface::Kind::circle) {
-    const Pieces whole = circle_pieces(s, w, 1, kInfinity);
-    std::optional<Vec2> best;
-    for (int i = 0; i < whole.count; ++i) {
-      const Vec2 p = whole.piece[i].nearest;
-      if (!best || dot(p, p) < dot(*best, *best)) best = p;
-    }
-    return best;
+  const Pieces whole = circle_pieces(s, w, 1, kInfinity);
+  std::optional<Vec2> best;
+  for (int i = 0; i < whole.count; ++i) {
+    const Vec2 p = whole.piece[i].nearest;
+    if (!best || dot(p, p) < dot(*best, *best)) best = p;
   }
-  const Vec2 edge = s.b - s.a;
-  if (is_point(edge)) return contains(w.arc, unit(s.a)) ? std::optional(s.a) : std::nullopt;
-  const Range r = clip(s, edge, w);
-  if (r.empty()) return std::nullopt;
-  return s.a + std::clamp(foot(s, edge).u, r.low, r.high) * edge;
+  return best;
 }
 
 bool within_critical(const Surface& s, Vec2 p) {
@@ -215,8 +169,8 @@ Pieces echo_pieces(const Surface& s, const Wedge& w, double max_range_m) {
     one.piece[0] = point_piece(s.a);
     return contains(w.arc, unit(s.a)) && length(s.a) <= heard ? one : none;
   }
-  Range r = clip(s, edge, w);
-  const Foot f = foot(s, edge);
+  Range r = clip(s.a, edge, w);
+  const Foot f = foot(s.a, edge);
   const auto keep_around_foot = [&](double reach) {
     r.low = std::max(r.low, f.u - reach);
     r.high = std::min(r.high, f.u + reach);
@@ -232,23 +186,35 @@ Pieces echo_pieces(const Surface& s, const Wedge& w, double max_range_m) {
   return one;
 }
 
-double hit_distance(const Surface& s, Vec2 u) {
-  const double slack = kHidingSlack_rad;
+Met::Met(const Surface& s) : kind_(s.kind), a_(s.a), radius_(s.radius) {
   if (s.kind == Surface::Kind::circle) {
-    const double along = dot(u, s.a), across = cross(u, s.a), distance = length(s.a);
-    const double half_chord = std::sqrt(std::max(0.0, s.radius * s.radius - across * across));
-    if (distance <= s.radius) return along + half_chord;
-    if (along <= 0 || std::abs(across) > s.radius + slack * distance) return kInfinity;
-    return along - half_chord;
+    centre_m_ = length(s.a);
+    return;
   }
   const bool swap = cross(s.a, s.b) < 0;
-  const Vec2 right = swap ? s.b : s.a, left = swap ? s.a : s.b, edge = left - right;
-  const double to_right = length(right), to_left = length(left), longest = std::max(to_right, to_left);
-  if (cross(right, u) < -slack * to_right || cross(u, left) < -slack * to_left) return kInfinity;
-  if (dot(u, right) <= 0 && dot(u, left) <= 0) return kInfinity;
-  const double facing = cross(u, edge);
-  if (facing <= kEdgeOn * length(edge)) return std::min(to_right, to_left);  // seen edge-on, or a point
-  return std::max(foot(s, edge).height, std::min(cross(right, edge) / facing, longest));
+  right_ = swap ? s.b : s.a, left_ = swap ? s.a : s.b, edge_ = left_ - right_;
+  to_right_ = length(right_), to_left_ = length(left_);
+}
+
+double Met::distance(Vec2 u) {
+  const double slack = kHidingSlack_rad;
+  if (kind_ == Surface::Kind::circle) {
+    const double along = dot(u, a_), across = cross(u, a_);
+    const double half_chord = std::sqrt(std::max(0.0, radius_ * radius_ - across * across));
+    if (centre_m_ <= radius_) return along + half_chord;
+    if (along <= 0 || std::abs(across) > radius_ + slack * centre_m_) return kInfinity;
+    return along - half_chord;
+  }
+  if (cross(right_, u) < -slack * to_right_ || cross(u, left_) < -slack * to_left_) return kInfinity;
+  if (dot(u, right_) <= 0 && dot(u, left_) <= 0) return kInfinity;
+  if (edge_on_ < 0) {
+    edge_on_ = kEdgeOn * length(edge_);
+    height_ = foot(a_, edge_).height;
+    area_ = cross(right_, edge_);
+  }
+  const double facing = cross(u, edge_);
+  if (facing <= edge_on_) return std::min(to_right_, to_left_);  // seen edge-on, or a point
+  return std::max(height_, std::min(area_ / facing, std::max(to_right_, to_left_)));
 }
 
 }  // namespace evigrid::raycast

@@ -15,7 +15,11 @@ struct Arc {
   Vec2 right, left;
 };
 
-bool contains(const Arc& arc, Vec2 direction);
+/// Rounding of a cross product of two directions.
+inline constexpr double kRounding = 1e-15;
+inline bool contains(const Arc& arc, Vec2 u) {
+  return cross(arc.right, u) >= -kRounding && cross(u, arc.left) >= -kRounding && dot(u, arc.right + arc.left) >= 0;
+}
 std::optional<Arc> intersection(const Arc& a, const Arc& b);
 /// Cross product of the two ends: the sine of the span.
 inline double sine_of_span(const Arc& arc) { return cross(arc.right, arc.left); }
@@ -25,7 +29,13 @@ struct Wedge {
   Vec2 axis;
   Arc arc;
 };
-Wedge make_wedge(double yaw_rad, double aperture_rad);
+/// Cosine and sine of half the opening, with the slack: the cones of a ring share them.
+struct HalfOpening {
+  explicit HalfOpening(double aperture_rad);
+  double aperture_rad, cosine, sine;
+};
+Wedge make_wedge(double yaw_rad, const HalfOpening& half);
+inline Wedge make_wedge(double yaw_rad, double aperture_rad) { return make_wedge(yaw_rad, HalfOpening(aperture_rad)); }
 
 /// Nearest point in the wedge whatever the incidence; contact with the apex is the point (0, 0).
 std::optional<Vec2> nearest_in_wedge(const Surface& s, const Wedge& wedge);
@@ -48,8 +58,22 @@ struct Pieces {
 };
 Pieces echo_pieces(const Surface& s, const Wedge& wedge, double max_range_m);
 
-/// Distance at which a ray from the origin meets the surface first; +∞ when it misses. Hides kHidingSlack_rad beyond
-/// the ends.
-double hit_distance(const Surface& s, Vec2 direction);
+/// A surface as rays from the origin meet it, with what does not depend on the ray worked out once, and only when
+/// asked.
+class Met {
+ public:
+  explicit Met(const Surface& s);
+  /// Distance at which the ray meets it first; +∞ when it misses. Hides kHidingSlack_rad beyond the ends.
+  [[nodiscard]] double distance(Vec2 direction);
+
+ private:
+  Surface::Kind kind_;
+  Vec2 a_;  ///< as the surface has it; of a circle, its centre
+  Vec2 right_, left_, edge_;
+  double to_right_ = 0, to_left_ = 0, area_ = 0, height_ = 0;
+  double edge_on_ = -1;  ///< < 0: this and height_ are not known yet
+  double radius_ = 0, centre_m_ = 0;
+};
+inline double hit_distance(const Surface& s, Vec2 direction) { return Met(s).distance(direction); }
 
 }  // namespace evigrid::raycast

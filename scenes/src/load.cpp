@@ -13,6 +13,7 @@ constexpr std::size_t kMostBytes = 64u << 20, kPiece = 1u << 16;
 MapSpec read_map(Table t, const Vocabulary& words) {
   MapSpec map{.cell_m = t.number("cell_m", {1e-3, 100}), .rule = t.text("rule")};
   require_known(t, "rule", map.rule, words.rules);
+  if (t.has("false_reflection_m")) map.false_reflection_m = t.number("false_reflection_m", {0, 1000});
   t.refuse_unknown_keys();
   return map;
 }

@@ -28,6 +28,20 @@ Pose read_mount(Table& t) {
   return {t.number("x_m", kMount_m), t.number("y_m", kMount_m), t.angle("yaw_deg", kTurn_deg)};
 }
 
+/// [….MODEL] tables: parameters of sensor models, over those of `all`.
+void read_parameters(Table& t, const std::vector<std::string>& models, const Vocabulary& words, ModelParameters& all) {
+  for (const std::string& model : models) {
+    if (!t.has(model)) continue;
+    Table own = t.table(model);
+    for (const Vocabulary::Parameter& p : words.parameters) {
+      if (p.model != model || !own.has(p.name)) continue;
+      all[model][p.name] =
+          p.is_switch ? static_cast<double>(own.boolean_or(p.name, false)) : own.number(p.name, {p.least, p.most});
+    }
+    own.refuse_unknown_keys();
+  }
+}
+
 /// Fields of a sonar, over those of `base`; without a base all that have no natural value are required.
 SonarSpec read_sonar(Table& t, const SonarSpec* base, const Vocabulary& words) {
   SonarSpec s = base ? *base : SonarSpec{};
@@ -38,6 +52,7 @@ SonarSpec read_sonar(Table& t, const SonarSpec* base, const Vocabulary& words) {
   s.aperture_rad = required("aperture_deg") ? t.angle("aperture_deg", aperture_deg)
                                             : t.angle_or("aperture_deg", aperture_deg, s.aperture_rad);
   read_common(t, s, required("max_range_m"));
+  read_parameters(t, words.sonar_models, words, s.parameters);
   if (t.has("group")) s.group = static_cast<int>(t.integer("group", 0, kMostGroups - 1));
   return s;
 }
@@ -84,6 +99,7 @@ LaserSpec read_laser(Table& t, const Vocabulary& words) {
   if (s.step_rad * s.beams > 2 * std::numbers::pi + kRound)
     t.fail("step_deg", "times beams is more than a full circle");
   read_common(t, s, true);
+  read_parameters(t, words.laser_models, words, s.parameters);
   t.refuse_unknown_keys();
   return s;
 }

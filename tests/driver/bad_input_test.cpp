@@ -132,7 +132,7 @@ TEST_F(BadInput, Combine) {
   expect_refused({"combine", "--rule", "pcr5", "--in", rows, "--sources", "1"}, "--sources: 1");
   for (const char* command : {"run", "compare"}) {
     const char* option = std::string(command) == "run" ? "--rule" : "--rules";
-    expect_refused({command, "default", "-o", dir.at("o"), option, "conjunctive"}, "keeps no plane");
+    expect_refused({command, "default", "-o", dir.at("o"), option, "disjunctive"}, "stay unknown");
     expect_refused({command, "default", "-o", dir.at("o"), option, "disjunctive"}, "use it with combine");
   }
 }

@@ -132,6 +132,7 @@ TEST(Cycle, SearchAndSweepPrintEachTrial) {
   EXPECT_TRUE(contains(found.out, "largest fleet: 20 robots"));
   const Json r = Json::parse(slurp(dir.at("max/report.json")));
   EXPECT_EQ(r["largest_fleet"], 20);
+  EXPECT_EQ(dir.names().count("max/trials.png"), 1u);
   EXPECT_EQ(r["trials"].size(), 3u);  // 5, 10, 20
   const Ran none = evigrid(small({"--find-max", "--deadline-ms", "0.001"}));
   EXPECT_TRUE(contains(none.out, "not even one robot keeps the deadline")) << none.out << none.err;

@@ -175,7 +175,7 @@ TEST(FleetOptions, BadOnesAreNamed) {
   EXPECT_TRUE(contains(why([](FleetOptions& o) { o.policy = "backlog", o.find_max = true; }), "--find-max"));
   EXPECT_TRUE(contains(why([](FleetOptions& o) { o.backlog = 5; }), "--backlog"));
   EXPECT_TRUE(contains(why([](FleetOptions& o) { o.robot = "tank"; }), "--robot"));
-  EXPECT_TRUE(contains(why([](FleetOptions& o) { o.rule = "bayes"; }), "--rule"));
+  EXPECT_TRUE(contains(why([](FleetOptions& o) { o.rule = "disjunctive"; }), "--rule"));
   EXPECT_TRUE(contains(why([](FleetOptions& o) { o.model = "beam"; }), "--model"));
   EXPECT_TRUE(contains(why([](FleetOptions& o) { o.robot = "laser180", o.sensors = 8; }), "--sensors"));
   EXPECT_TRUE(contains(why([](FleetOptions& o) { o.max_range_m = -3; }), "max_range_m"));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Saved maps from the command line: written by `map`, told by `info`, drawn by `show`, and refused when damaged.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "driver/decoded_png.hpp"
@@ -52,6 +54,12 @@ TEST(Show, PicturesAndTheTerminal) {
   for (const LookRow& row : all_looks()) {
     const std::string file = dir.at(std::string(row.name) + ".png");
     const Ran ran = evigrid({"show", out, "--layer", std::string(row.name), "-o", file});
+    if (row.look == Look::con || row.look == Look::last_conflict) {  // this map keeps neither
+      EXPECT_EQ(ran.code, 2);
+      EXPECT_TRUE(contains(ran.err, fmt::format("keeps no {0}; map with --layers {0}", row.name))) << ran.err;
+      EXPECT_FALSE(std::filesystem::exists(file));
+      continue;
+    }
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_GT(decode_png(slurp(file)).width, 500);
   }
@@ -59,6 +67,27 @@ TEST(Show, PicturesAndTheTerminal) {
   EXPECT_EQ(slurp(dir.at("s.png")), slurp(dir.at("surface.png")));
   ASSERT_EQ(evigrid({"show", out, "--rect", "1,2,2,2.5", "--scale", "50", "-o", dir.at("part.png")}).code, 0);
   EXPECT_EQ(decode_png(slurp(dir.at("part.png"))).width, 20 * 50 + 32);  // 20 cells of 0.05 m
+}
+
+TEST(Show, EveryLayerOfAMapThatKeepsAll) {
+  const TempDir dir;
+  const std::string out = mapped(dir, {"--layers", "con,last_conflict"});
+  for (const LookRow& row : all_looks()) {
+    const std::string file = dir.at(std::string(row.name) + ".png");
+    const Ran ran = evigrid({"show", out, "--layer", std::string(row.name), "-o", file});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_GT(decode_png(slurp(file)).width, 500);
+  }
+}
+
+TEST(Map, AllLayersAreThoseOfTheMapAsItIs) {
+  const TempDir dir;
+  mapped(dir, {"--layers", "all"});
+  const auto names = dir.names();
+  for (const LookRow& row : all_looks()) {
+    const bool kept = row.look != Look::con && row.look != Look::last_conflict;
+    EXPECT_EQ(names.contains("out/layer_" + std::string(row.name) + ".png"), kept) << row.name;
+  }
 }
 
 TEST(Show, BadRequestsAreNamed) {

@@ -3,35 +3,18 @@
 // fused map's rule on exact operands is the same rule.
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <random>
+#include <algorithm>
+#include <tuple>
 #include <vector>
 
+#include "equivalence/mass_arrays.hpp"
 #include "evigrid/evigrid.hpp"
 #include "sanitizer.hpp"
 
 namespace evigrid {
 namespace {
 
-struct Arrays {
-  std::vector<float> e, o, u;
-  explicit Arrays(std::size_t n, unsigned seed) : e(n), o(n), u(n) {
-    std::mt19937 rng(seed);
-    std::uniform_real_distribution<float> r(0, 1);
-    for (std::size_t i = 0; i < n; ++i) {
-      e[i] = i % 5 == 0 ? static_cast<float>(i / 5 % 2) : r(rng);
-      o[i] = i % 5 == 0 ? 1 - e[i] : r(rng) * (1 - e[i]);
-      u[i] = 1 - e[i] - o[i];
-    }
-  }
-  Planes<const float> in() const { return {e.data(), o.data(), u.data()}; }
-  Planes<float> out() { return {e.data(), o.data(), u.data()}; }
-  bool operator==(const Arrays& b) const {
-    return e.empty() || (std::memcmp(e.data(), b.e.data(), e.size() * 4) == 0 &&
-                         std::memcmp(o.data(), b.o.data(), o.size() * 4) == 0 &&
-                         std::memcmp(u.data(), b.u.data(), u.size() * 4) == 0);
-  }
-};
+using testing::Arrays;
 
 TEST(Dense, SameBitsForTablesLengthsAndPlace) {
   for (const Rule rule : all_rules()) {
@@ -48,6 +31,29 @@ TEST(Dense, SameBitsForTablesLengthsAndPlace) {
         EXPECT_TRUE(got == want) << name(rule) << " " << name(kernel) << " " << n;
         EXPECT_EQ(k, k2);
       }
+    }
+  }
+}
+
+/// Arrays need not begin on a cache line, nor the planes at the same place of one.
+TEST(Dense, SameBitsWhereverArraysBegin) {
+  const std::size_t n = 3000;
+  const Arrays a(n + 40, 1), b(n + 40, 2);
+  Arrays want(n, 3);
+  const auto at = [](const Arrays& x, std::size_t e, std::size_t o, std::size_t u) {
+    return Planes<const float>{x.e.data() + e, x.o.data() + o, x.u.data() + u};
+  };
+  for (const auto& [e, o, u] : {std::tuple(1u, 1u, 1u), std::tuple(4u, 4u, 4u), std::tuple(15u, 2u, 31u)}) {
+    const auto totals = combine(Rule::dempster, at(a, e, o, u), at(b, u, o, e), want.out(), nullptr, n, Kernel::scalar);
+    for (const Kernel kernel : {Kernel::avx2, Kernel::avx512}) {
+      if (!kernel_available(kernel)) continue;
+      Arrays got = a;  // in place, at the same offsets
+      const Planes<float> c{got.e.data() + e, got.o.data() + o, got.u.data() + u};
+      EXPECT_EQ(combine(Rule::dempster, {c.e, c.o, c.u}, at(b, u, o, e), c, nullptr, n, kernel), totals);
+      EXPECT_TRUE(std::equal(want.e.begin(), want.e.end(), c.e) && std::equal(want.o.begin(), want.o.end(), c.o) &&
+                  std::equal(want.u.begin(), want.u.end(), c.u))
+          << name(kernel) << " " << e << " " << o << " " << u;
+      EXPECT_EQ(got.e[n + e], a.e[n + e]);  // nothing beyond
     }
   }
 }

@@ -120,7 +120,8 @@ TEST(CombineOracle, SumsStayNearOneOverHundredThousandSequentialUpdates) {
   MassArray<float> sources(0);  // the four readings of one time side by side
   for (std::size_t i = 0; i < kRandomPairs; ++i)
     for (const auto& r : runs) sources.push(r.e[i], r.o[i], r.u[i]);
-  for (Rule rule : evigrid::map_rules())
+  for (Rule rule : evigrid::map_rules()) {
+    if (evigrid::keeps_paradox(rule)) continue;  // what it leaves is no sum of e, o, u
     for (Kernel kernel : available_kernels()) {
       MassArray<float> cells(0);
       for (std::size_t r = 0; r < runs.size(); ++r) cells.push(0, 0, 1);
@@ -139,6 +140,7 @@ TEST(CombineOracle, SumsStayNearOneOverHundredThousandSequentialUpdates) {
       std::cout << "largest |sum - 1| " << name(rule) << ' ' << name(kernel) << ": "
                 << *std::max_element(worst.begin(), worst.end()) << '\n';
     }
+  }
 }
 
 }  // namespace

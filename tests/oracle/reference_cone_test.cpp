@@ -61,7 +61,8 @@ TEST_P(ReferenceCone, ExactlyAlignedPoses) {
                                               << pose.yaw_rad << ", range " << range_m);
               Sensor s = sonar(GetParam(), aperture_deg);
               s.hughes.tolerance_m = 2 * cell;  // the arcs of both zones pass through centres
-              s.max_range_m = 8;                // li2014 reads 50 cells as far as exactly 51
+              s.oriolo.delta_m = 2 * cell, s.li2006.epsilon_m = cell;
+              s.max_range_m = 8;  // li2014 reads 50 cells as far as exactly 51
               all.merge(once({.cell_m = cell}, s, pose, {&range_m, 1}));
             }
     expect_within_bounds(all);
@@ -108,8 +109,11 @@ TEST_P(ReferenceCone, RingScansInARowUnderEveryRule) {
       const Difference d = drive_ring(GetParam(), rule, 25, reliability, {0.2, 0.1, 0.05}, 0.1, 30);
       SCOPED_TRACE(testing::Message() << name(rule) << " reliability " << reliability);
       EXPECT_GE(d.most_updates, 30U);
-      expect_within_bounds(d);
-      print(std::string(name(GetParam())) + " ring " + std::string(name(rule)) + (reliability < 1 ? " 0.9" : " 1"), d);
+      Sensor of_ring = sonar(GetParam(), 25);
+      of_ring.reliability = reliability;
+      expect_within_bounds(d, mass_bound(rule, of_ring));
+      print(std::string(name(GetParam())) + " ring " + std::string(name(rule)) + (reliability < 0.95 ? " 0.9" : " 1"),
+            d);
     }
 }
 
@@ -119,6 +123,28 @@ TEST_P(ReferenceCone, FiveSinglePassesUnderEveryRuleAndAperture) {
       SCOPED_TRACE(testing::Message() << name(rule) << ' ' << aperture_deg);
       expect_within_bounds(drive_ring(GetParam(), rule, aperture_deg, 0.95, {-3.3, 8.1, 2}, 0.05, 5));
     }
+}
+
+// Contextual discount before Shafer's, and the weights of conflict, reading by reading.
+TEST_P(ReferenceCone, ContextualReliabilityAndCon) {
+  for (Rule rule : {Rule::pcr5, Rule::germ_pcr2, Rule::yager, Rule::conjunctive, Rule::dempster_log, Rule::fuzzy}) {
+    SCOPED_TRACE(std::string(name(rule)));
+    Both both({.cell_m = 0.1, .rule = rule, .keep_con = true, .keep_last_conflict = true});
+    Sensor s = sonar(GetParam(), 25), other = s;
+    s.reliability_if_empty = 0.7, s.reliability_if_occupied = 0.9, s.reliability = 0.95;
+    other.reliability_if_occupied = 0.4;
+    const auto a = both.add(s), b = both.add(other);
+    for (int i = 0; i < 24; ++i) {
+      const float range_m = 0.7F + 0.15F * static_cast<float>(i % 9);
+      both.integrate({0.05 * i, 0.031 * i, 0.2 * i}, i % 2 == 0 ? a : b, {&range_m, 1});
+    }
+    both.expect_equal_reports();
+    expect_within_bounds(both.difference());
+    for (const auto& [index, want] : both.reference().cells()) {
+      ASSERT_NEAR(both.engine().con(index), want.con, 1e-5 * static_cast<double>(want.updates));
+      ASSERT_NEAR(both.engine().last_conflict(index), want.last, 2e-6);
+    }
+  }
 }
 
 TEST_P(ReferenceCone, UtmSizedCoordinates) {
@@ -144,8 +170,57 @@ TEST_P(ReferenceCone, NoFinitePoseRefusesEveryRange) {
   EXPECT_EQ(both.engine().bounds(), evigrid::CellRect{});
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, ReferenceCone, testing::Values(Model::hughes1992, Model::li2014),
+INSTANTIATE_TEST_SUITE_P(Models, ReferenceCone,
+                         testing::Values(Model::hughes1992, Model::oriolo1997, Model::li2006, Model::li2014),
                          [](const auto& model) { return std::string(name(model.param)); });
+
+// Models that say no masses, under the rules that are theirs.
+TEST(ReferencePairs, ProbabilitiesAndMembershipsThroughTheirRules) {
+  for (const auto& [model, rule] : {std::pair{Model::probability, Rule::bayes}, std::pair{Model::fuzzy, Rule::fuzzy},
+                                    std::pair{Model::moravec1985, Rule::fuzzy}})
+    for (double cell_m : {0.1, 0.05})
+      for (double reliability : {1.0, 0.9}) {
+        SCOPED_TRACE(testing::Message() << name(rule) << ' ' << name(model) << ' ' << cell_m);
+        const Difference d = drive_ring(model, rule, 25, reliability, {0.2, 0.1, 0.05}, cell_m, 20);
+        Sensor of_ring = sonar(model, 25);
+        of_ring.reliability = reliability;
+        // Near the sensor P is a hundredth, so that a float error of P counts a hundredfold in the odds.
+        expect_within_bounds(d, std::max(mass_bound(rule, of_ring), model == Model::probability ? 4e-6 : 0));
+        print(std::string(name(model)) + " " + std::string(name(rule)), d);
+      }
+}
+
+// With likelihoods matched by plausibility and prior ½, Bayes is Dempster's PlP, for every model of masses.
+TEST(ReferencePairs, BayesMatchedByPlPIsDempstersPlP) {
+  for (Model model : {Model::hughes1992, Model::oriolo1997, Model::li2006, Model::li2014}) {
+    MapParams by_bayes{.cell_m = 0.1, .rule = Rule::bayes};
+    by_bayes.bayes = {.likelihood = evigrid::Likelihood::plp, .least_p = 1e-6, .most_p = 1 - 1e-6};
+    evigrid::Map bayes(by_bayes), dempster({.cell_m = 0.1, .rule = Rule::dempster});
+    Sensor s = sonar(model, 25);
+    s.reliability = 0.8;
+    const auto id = bayes.add(s), same = dempster.add(s);
+    ASSERT_EQ(id, same);
+    for (int n = 0; n < 9; ++n) {
+      const float range_m = 1.2F + 0.13F * static_cast<float>(n % 4);
+      const evigrid::Reading reading{id, {&range_m, 1}};
+      const evigrid::Scan scan{n, {0.01 * n, 0.02 * n, 0.2 * n}, {&reading, 1}};
+      bayes.integrate(scan), dempster.integrate(scan);
+    }
+    const evigrid::CellRect box = dempster.bounds();
+    double worst = 0;
+    int cells = 0;
+    for (std::int64_t y = box.y; y < box.y + box.height; ++y)
+      for (std::int64_t x = box.x; x < box.x + box.width; ++x) {
+        const evigrid::Mass d = dempster.mass({x, y}), b = bayes.mass({x, y});
+        if (d.u == 1) continue;
+        const double plp = (static_cast<double>(d.o) + d.u) / (static_cast<double>(d.e) + d.o + 2.0 * d.u);
+        worst = std::max(worst, std::fabs(plp - (b.o + b.u / 2.0)));
+        ++cells;
+      }
+    EXPECT_GT(cells, 100) << name(model);
+    EXPECT_LE(worst, 2e-6) << name(model);
+  }
+}
 
 // A certain cell against certain evidence: Dempster answers with ignorance and counts it, the others share.
 TEST(ReferenceCell, TotalConflictIsAnsweredAndCountedAlike) {
@@ -174,8 +249,10 @@ TEST(ReferenceCell, SumsStayNearOneOverHundredThousandReadings) {
       const evigrid::Reading reading{id, {&range_m, 1}};
       map.integrate(evigrid::Scan{n, {0.25, 0.25, 0}, {&reading, 1}});
       const evigrid::Mass m = map.mass({2, 0});
-      worst = std::max(worst, std::fabs(static_cast<double>(m.e) + m.o + m.u - 1));
-      ASSERT_TRUE(std::isfinite(m.e) && std::isfinite(m.o) && m.u > 0);
+      const double both = rule == Rule::fuzzy ? 2.0 * m.e * m.o : 0;  // memberships: 1 + 2 e o
+      worst = std::max(worst, std::fabs(static_cast<double>(m.e) + m.o + m.u + m.c - 1 - both));
+      ASSERT_TRUE(std::isfinite(m.e) && std::isfinite(m.o)) << name(rule);
+      ASSERT_TRUE(m.u > 0 || rule == Rule::bayes || rule == Rule::fuzzy) << name(rule);
     }
     EXPECT_LE(worst, 4e-7) << name(rule);
   }

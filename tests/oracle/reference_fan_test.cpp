@@ -73,6 +73,7 @@ TEST(ReferenceFan, ReliabilityMountAndClearedNoReturn) {
   Sensor s = laser(180, -90, 1);
   s.T_robot_sensor = {0.17, -0.04, 0.3};
   s.reliability = 0.8;
+  s.reliability_if_empty = 0.6, s.reliability_if_occupied = 0.9;
   s.clear_no_return = true;
   expect_fan("fan mounted", drive(s, Rule::pcr5, {1, 1, 0.1}, 0.05, 10));
 }

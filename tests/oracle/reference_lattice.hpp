@@ -47,15 +47,38 @@ inline Direction direction(double angle_rad) {
   return d;
 }
 
+/// Of a cone's edge: components that are multiples of 2^-24.
+inline Direction edge_direction(double angle_rad) {
+  const Direction d = direction(angle_rad);
+  return {std::ldexp(std::nearbyint(std::ldexp(d.x, 24)), -24), std::ldexp(std::nearbyint(std::ldexp(d.y, 24)), -24)};
+}
+
 /// a × b. Exact: 24-bit directions times lattice offsets of at most 22 bits and a bit.
 inline double cross(double ax, double ay, double bx, double by) { return ax * by - ay * bx; }
 
-/// Farthest distance at which a reading of the sensor still says something, in cells.
+/// Half the arc of a model that has one, metres.
+inline double arc_m(const evigrid::Sensor& s) {
+  switch (s.model) {
+    case evigrid::Model::oriolo1997:
+      return s.oriolo.delta_m;
+    case evigrid::Model::li2006:
+      return s.li2006.epsilon_m;
+    case evigrid::Model::probability:
+      return s.probability.epsilon_m;
+    case evigrid::Model::fuzzy:
+      return s.fuzzy.epsilon_m;
+    case evigrid::Model::moravec1985:
+      return s.moravec.epsilon_m;
+    default:
+      return 0;
+  }
+}
+
+/// What sets the lattice: the largest reading and the width of the model's arc, in cells.
 inline double reach_cells(const evigrid::Sensor& s, double cell_m) {
-  if (s.model == evigrid::Model::hughes1992)
-    return std::min(s.max_range_m + s.hughes.tolerance_m, s.hughes.r_max_m) / cell_m;
+  if (s.model == evigrid::Model::hughes1992) return (s.max_range_m + s.hughes.tolerance_m) / cell_m;
   if (s.model == evigrid::Model::li2014) return s.max_range_m * (1 + 2 * s.li.epsilon_ratio) / cell_m;
-  return s.max_range_m / cell_m;
+  return (s.max_range_m + arc_m(s)) / cell_m;
 }
 
 }  // namespace oracle

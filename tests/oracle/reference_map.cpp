@@ -93,17 +93,25 @@ void ReferenceMap::cone(const Declared& declared, const Pose2& pose, float range
   const auto& lattice = declared.lattice;
   if (gate(sensor, range_m) != Gate::use) return;
   const double cell = params_.cell_m;
-  const Direction left = direction(pose.yaw_rad + sensor.aperture_rad / 2);
-  const Direction right = direction(pose.yaw_rad - sensor.aperture_rad / 2);
+  const Direction left = edge_direction(pose.yaw_rad + sensor.aperture_rad / 2);
+  const Direction right = edge_direction(pose.yaw_rad - sensor.aperture_rad / 2);
   const double range = lattice.round(range_m / cell);  // cells, as the next three
   const double nearest = std::max(lattice.round(sensor.min_range_m / cell), lattice.step());
-  double farthest = 0, occupied_from = 0;
+  double farthest = 0, occupied_from = 0, width = lattice.round(arc_m(sensor) / cell);
+  if (sensor.model != Model::li2006) width = std::max(width, lattice.step());
   if (sensor.model == Model::hughes1992) {
     const double tolerance = lattice.round(sensor.hughes.tolerance_m / cell);
     farthest = std::min(range + tolerance, lattice.round(sensor.hughes.r_max_m / cell));
     occupied_from = range - tolerance;
-  } else {
+  } else if (sensor.model == Model::li2014) {
     farthest = lattice.round(range * (1 + 2 * sensor.li.epsilon_ratio));
+  } else {
+    farthest = range + width;
+    const double rho_v_m = sensor.model == Model::oriolo1997    ? sensor.oriolo.rho_v_m
+                           : sensor.model == Model::probability ? sensor.probability.rho_v_m
+                           : sensor.model == Model::fuzzy       ? sensor.fuzzy.rho_v_m
+                                                                : 1e9;
+    farthest = std::min(farthest, lattice.round(std::min(rho_v_m + 5, 1e6) / cell));
   }
   sweep(declared, pose, farthest, [&](double dx, double dy, double d_squared, Source& source) {
     if (d_squared < square(nearest) || d_squared > square(farthest)) return false;
@@ -111,13 +119,8 @@ void ReferenceMap::cone(const Declared& declared, const Pose2& pose, float range
     if (beside_left < 0 || beside_right < 0) return false;
     const EdgeAngles angles{std::atan2(beside_left, dx * left.x + dy * left.y),
                             std::atan2(beside_right, dx * right.x + dy * right.y)};
-    const double d_m = std::sqrt(d_squared) * cell;
-    if (sensor.model == Model::hughes1992) {
-      const Zone zone = nearer(d_squared, occupied_from) ? Zone::empty : Zone::occupied;
-      source = hughes1992(sensor.hughes, d_m, angles, zone);
-    } else {
-      source = li2014(sensor.li, range * cell, d_m, angles);
-    }
+    const Zone zone = nearer(d_squared, occupied_from) ? Zone::empty : Zone::occupied;
+    source = cone_model(sensor, {std::sqrt(d_squared), range, width, nearest, cell}, angles, zone);
     return true;
   });
 }
@@ -186,11 +189,26 @@ void ReferenceMap::sweep(const Declared& declared, const Pose2& pose, double rad
       const double d_squared = dx * dx + dy * dy;
       Source source;
       if (d_squared > disc || !say(dx, dy, d_squared, source)) continue;
-      update(cells_[{x.cell + i, y.cell + j}], discount(source, declared.sensor.reliability));
+      update(cells_[{x.cell + i, y.cell + j}],
+             discount(contextual(source, declared.sensor.reliability_if_empty, declared.sensor.reliability_if_occupied),
+                      declared.sensor.reliability));
     }
 }
 
 void ReferenceMap::update(ReferenceCell& cell, const Source& source) {
+  const auto count = [&](double conflict, bool total) {
+    cell.conflict += conflict;
+    cell.con -= std::log(std::max(1 - conflict, 1e-12));
+    cell.last = conflict;
+    ++cell.updates;
+    ++report_.cells_updated;
+    report_.total_conflicts += total;
+    report_.max_conflict = std::max(report_.max_conflict, conflict);
+  };
+  if (const auto answer = update_state(params_, cell.state, source)) {
+    cell.e = answer->e, cell.o = answer->o, cell.u = answer->u, cell.c = answer->c;
+    return count(answer->conflict, false);
+  }
   Belief<double, 3> state{}, said{};
   state[kEmpty] = cell.e, state[kOccupied] = cell.o, state[kUnknown] = cell.u;
   said[kEmpty] = source.x, said[kOccupied] = source.y, said[kUnknown] = source.v, said[kBoth] = source.z;
@@ -198,11 +216,7 @@ void ReferenceMap::update(ReferenceCell& cell, const Source& source) {
   cell.e = fused.m[kEmpty] < kLeastMass ? 0 : fused.m[kEmpty];
   cell.o = fused.m[kOccupied] < kLeastMass ? 0 : fused.m[kOccupied];
   cell.u = std::max(fused.m[kUnknown], kLeastUnknown);
-  cell.conflict += fused.conflict;
-  ++cell.updates;
-  ++report_.cells_updated;
-  report_.total_conflicts += fused.total_conflict;
-  report_.max_conflict = std::max(report_.max_conflict, fused.conflict);
+  count(fused.conflict, fused.total_conflict);
 }
 
 }  // namespace oracle

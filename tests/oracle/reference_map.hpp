@@ -14,14 +14,17 @@
 #include "evigrid/map.hpp"
 #include "tests/oracle/reference_lattice.hpp"
 #include "tests/oracle/reference_model.hpp"
+#include "tests/oracle/reference_state.hpp"
 
 namespace oracle {
 
 struct ReferenceCell {
-  double e = 0, o = 0, u = 1;
+  double e = 0, o = 0, u = 1, c = 0;
   double conflict = 0;        ///< running sum of k
+  double con = 0, last = 0;   ///< −Σ ln(1 − k), k of the last update
+  StateNumbers state;         ///< of the rules whose state is not (e, o, u)
   std::uint64_t updates = 0;  ///< readings that touched the cell
-  [[nodiscard]] bool vacuous() const { return e == 0 && o == 0; }
+  [[nodiscard]] bool vacuous() const { return e == 0 && o == 0 && c == 0; }
 };
 
 struct CellHash {

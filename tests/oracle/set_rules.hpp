@@ -237,6 +237,7 @@ Combined<T, Parts> combine(evigrid::Rule rule, const Frame& frame, const Belief<
   Combined<T, Parts> out;
   switch (rule) {
     case Rule::dempster:
+    case Rule::dempster_log:
       return dempster<T, Parts>(frame, m1, m2, least);
     case Rule::yager:
       out = conjunctive<T, Parts>(frame, m1, m2);

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/reference.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "placed_world.hpp"
@@ -14,7 +15,7 @@ namespace {
 using namespace testing;
 
 void expect(const World& world, const ConeQuery& q, double range_m) {
-  const Echo fast = Scene(world).cast_cone(q), slow = reference_cone(world, q);
+  const Echo fast = BothIndices(world).cast_cone(q), slow = reference_cone(world, q);
   if (std::isinf(range_m)) {
     EXPECT_EQ(fast.status, EchoStatus::none) << fast.range_m;
     EXPECT_EQ(slow.status, EchoStatus::none) << slow.range_m;
@@ -80,7 +81,7 @@ TEST(Absorption, RoundRoomFromInside) {
 
 TEST(Absorption, LaserReadsNothing) {
   const World w{.walls = {{{3, -5}, {3, 5}, kHalf}, {{3.5, -5}, {3.5, 5}, {}}}};
-  const Scene scene(w);
+  const BothIndices scene(w);
   for (double max : {5.9, 6.0, 7.0}) {
     const double expected = max < 6 ? kNone : 3;
     EXPECT_EQ(scene.ray_range(0, 0, 0, max), expected) << max;
@@ -91,7 +92,7 @@ TEST(Absorption, LaserReadsNothing) {
 TEST(Absorption, BadOnesAreRefusedByName) {
   for (double a : {-0.1, 1.0, 2.0, std::nan("")}) {
     try {
-      Scene scene({.boxes = {{{0, 0}, 1, 1, 0, {1, a}}}});
+      BothIndices scene({.boxes = {{{0, 0}, 1, 1, 0, {1, a}}}});
       ADD_FAILURE() << a;
     } catch (const std::invalid_argument& e) {
       EXPECT_STREQ(e.what(), "box 0: absorption is outside [0, 1)");
@@ -107,7 +108,7 @@ TEST(Absorption, EqualsReferenceInRandomRooms) {
     World world = plain;
     make_absorbing(world, r);
     if (k % 3 == 0) world.circles.push_back({{4, 3}, r.uniform(1, 4), {r.uniform(0, 1.5), r.uniform(0, 0.95)}});
-    const Scene scene(world), unabsorbed(plain);
+    const BothIndices scene(world), unabsorbed(plain);
     for (int c = 0; c < 60; ++c) {
       const ConeQuery q = random_cone(r);
       const Echo expected = reference_cone(world, q), got = scene.cast_cone(q);

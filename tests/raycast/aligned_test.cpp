@@ -3,12 +3,15 @@
 // walls, ends on ends, sensors at round coordinates, headings at every multiple of half the opening.
 #include <gtest/gtest.h>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/reference.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "random_world.hpp"
 
 namespace evigrid::raycast {
 namespace {
+
+using testing::BothIndices;
 
 using testing::kDegree;
 using testing::Random;
@@ -33,7 +36,7 @@ TEST(Aligned, GridScenesEqualReference) {
       w.walls.push_back({from, to, material()});
     }
     for (int i = 0; i < 3; ++i) w.circles.push_back({{lattice(6), lattice(4)}, 0.23 * (1 + r.below(2)), material()});
-    const Scene scene(w);
+    const BothIndices scene(w);
     for (int c = 0; c < 100; ++c, ++cones) {
       const double aperture_deg = 15.0 * (1 + r.below(4));
       const ConeQuery q{lattice(6), lattice(4), r.below(48) * 7.5 * kDegree, aperture_deg * kDegree, 0.2, 5};
@@ -56,10 +59,10 @@ TEST(Aligned, WallOnTheEdgeOfTheConeBelongsToIt) {
     for (double side : {-1.0, 1.0}) {
       const ConeQuery q{0, 0, a + side * 7.5 * kDegree, 15 * kDegree, 0.1, 5};
       World w{.walls = {{{dx, dy}, {2 * dx, 2 * dy}, {}}}};
-      EXPECT_NEAR(Scene(w).cast_cone(q).range_m, 1, 1e-9) << quarter << side;
+      EXPECT_NEAR(BothIndices(w).cast_cone(q).range_m, 1, 1e-9) << quarter << side;
       EXPECT_NEAR(reference_cone(w, q).range_m, 1, 1e-9) << quarter << side;
       w.walls[0].material = {80 * kDegree};
-      EXPECT_EQ(Scene(w).cast_cone(q).status, EchoStatus::none) << quarter << side;
+      EXPECT_EQ(BothIndices(w).cast_cone(q).status, EchoStatus::none) << quarter << side;
       EXPECT_EQ(reference_cone(w, q).status, EchoStatus::none) << quarter << side;
     }
   }
@@ -71,7 +74,7 @@ TEST(Aligned, CircleTangentToTheEdgeOfTheCone) {
     const double towards = (heading_deg + 37.5) * kDegree, edge_to_centre = 30 * kDegree;
     const World w{.circles = {{{2 * std::cos(towards), 2 * std::sin(towards)}, 2 * std::sin(edge_to_centre), {}}}};
     const ConeQuery q{0, 0, heading_deg * kDegree, 15 * kDegree, 0.1, 5};
-    EXPECT_NEAR(Scene(w).cast_cone(q).range_m, 2 * std::cos(edge_to_centre), 1e-5) << heading_deg;
+    EXPECT_NEAR(BothIndices(w).cast_cone(q).range_m, 2 * std::cos(edge_to_centre), 1e-5) << heading_deg;
     EXPECT_NEAR(reference_cone(w, q).range_m, 2 * std::cos(edge_to_centre), 1e-5) << heading_deg;
   }
 }
@@ -87,7 +90,7 @@ TEST(Aligned, NoEchoThroughTheJointOfTwoShinyWalls) {
                             {turned(1, 0), turned(2, -2 * edge), shiny},
                             {turned(3, -5), turned(3, 5), {}}}};
     const ConeQuery q{0, 0, heading_deg * kDegree, 15 * kDegree, 0.1, 5};
-    EXPECT_EQ(Scene(w).cast_cone(q).status, EchoStatus::none) << heading_deg;
+    EXPECT_EQ(BothIndices(w).cast_cone(q).status, EchoStatus::none) << heading_deg;
     EXPECT_EQ(reference_cone(w, q).status, EchoStatus::none) << heading_deg;
   }
 }
@@ -96,7 +99,7 @@ TEST(Aligned, WallTouchingFromBehindStaysHidden) {
   // An echoing wall ends on the back of a shiny one.
   const World w{.walls = {{{2, -5}, {2, 5}, {5 * kDegree}}, {{2, 1}, {3, 1.7}, {}}}};
   const ConeQuery q{0, 0, std::atan2(1, 2), 15 * kDegree, 0.1, 5};
-  EXPECT_EQ(Scene(w).cast_cone(q).status, EchoStatus::none);
+  EXPECT_EQ(BothIndices(w).cast_cone(q).status, EchoStatus::none);
   EXPECT_EQ(reference_cone(w, q).status, EchoStatus::none);
 }
 
@@ -104,7 +107,7 @@ TEST(Aligned, SurfacesLyingOnOneAnotherAreBothSeen) {
   const World w{.walls = {{{2, -5}, {2, 5}, {5 * kDegree}}, {{2, 0.5}, {2, 1.5}, {}}}};
   const ConeQuery q{0, 0, std::atan2(1, 2), 15 * kDegree, 0.1, 5};
   const double nearest = 2 / std::cos(std::atan2(1, 2) - 7.5 * kDegree);
-  EXPECT_NEAR(Scene(w).cast_cone(q).range_m, nearest, 1e-9);
+  EXPECT_NEAR(BothIndices(w).cast_cone(q).range_m, nearest, 1e-9);
   EXPECT_NEAR(reference_cone(w, q).range_m, nearest, 1e-9);
 }
 

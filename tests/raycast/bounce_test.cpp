@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "flat_rays.hpp"
 #include "placed_world.hpp"
@@ -23,7 +24,7 @@ TEST(SecondBounce, MirrorAndBox) {
   // A mirror at 45° two metres ahead turns the ray upwards to a box three metres above: the reading is 2 + 3, where the
   // sonar stands before free space as far as it knows.
   const World w{.walls = {{{1, -1}, {3, 1}, kMirror}}, .boxes = {{{2, 3.5}, 2, 1, 0, {}}}};
-  const Scene scene(w);
+  const BothIndices scene(w);
   const ConeQuery ray = cone(0, 0);
   EXPECT_EQ(scene.cast_cone(ray).status, EchoStatus::none);
   const Echo echo = scene.cast_cone_second_bounce(ray, {}, 1);
@@ -41,7 +42,7 @@ TEST(SecondBounce, MirrorAndBox) {
   EXPECT_EQ(scene.cast_cone_second_bounce(late, {}, 1).status, EchoStatus::too_close);
   World with_post = w;
   with_post.circles.push_back({{1.5, 0.05}, 0.01, {}});
-  EXPECT_NEAR(Scene(with_post).cast_cone_second_bounce(cone(0, 10), {}, 33).range_m, std::hypot(1.5, 0.05) - 0.01,
+  EXPECT_NEAR(BothIndices(with_post).cast_cone_second_bounce(cone(0, 10), {}, 33).range_m, std::hypot(1.5, 0.05) - 0.01,
               1e-12);
 }
 
@@ -50,12 +51,12 @@ TEST(SecondBounce, CornerOfTwoWalls) {
   // second, which meets it at 30° and sends it back. Mirrored in the first wall the sonar stands at (4, 0).
   const Material half{45 * kDegree};
   const World w{.walls = {{{2, -9}, {2, 5}, half}, {{2, 5}, {-9, 5}, half}}};
-  const Scene scene(w);
+  const BothIndices scene(w);
   EXPECT_NEAR(scene.cast_cone_second_bounce(cone(60, 0), {}, 1).range_m, 5 / std::sin(60 * kDegree), 1e-12);
   EXPECT_NEAR(scene.cast_cone_second_bounce(cone(60, 10), {}, 32).range_m, 5 / std::sin(65 * kDegree), 1e-12);
   // Both beyond their critical incidence: the second throws it away as well.
   const World shinier{.walls = {{{2, -9}, {2, 5}, {25 * kDegree}}, {{2, 5}, {-9, 5}, {25 * kDegree}}}};
-  EXPECT_EQ(Scene(shinier).cast_cone_second_bounce(cone(60, 0), {}, 1).status, EchoStatus::none);
+  EXPECT_EQ(BothIndices(shinier).cast_cone_second_bounce(cone(60, 0), {}, 1).status, EchoStatus::none);
   // Straight into the corner: the ray ends there.
   EXPECT_FALSE(scene.cast_cone_second_bounce({0, 3, 45 * kDegree, 0, 0.1, 8}, {}, 1).range_m > 3);
 }
@@ -63,28 +64,28 @@ TEST(SecondBounce, CornerOfTwoWalls) {
 TEST(SecondBounce, BothSurfacesAbsorbTheMirrorTwice) {
   // (1 − 0.2) · √(1 − 0.36) = 0.64: way 5 is heard from a range of 7.8125 on.
   const World w{.walls = {{{1, -1}, {3, 1}, {20 * kDegree, 0.2}}}, .boxes = {{{2, 3.5}, 2, 1, 0, {2 * kDegree, 0.36}}}};
-  EXPECT_EQ(Scene(w).cast_cone_second_bounce(cone(0, 0, 7.8126), {}, 1).status, EchoStatus::ok);
-  EXPECT_EQ(Scene(w).cast_cone_second_bounce(cone(0, 0, 7.8124), {}, 1).status, EchoStatus::none);
+  EXPECT_EQ(BothIndices(w).cast_cone_second_bounce(cone(0, 0, 7.8126), {}, 1).status, EchoStatus::ok);
+  EXPECT_EQ(BothIndices(w).cast_cone_second_bounce(cone(0, 0, 7.8124), {}, 1).status, EchoStatus::none);
 }
 
 TEST(SecondBounce, RoundMirrors) {
   // From outside: a pole of radius 1 met at 45° of its normal turns the ray by 90°.
   const double s = std::sqrt(0.5);
   World w{.walls = {{{-5, 4}, {9, 4}, {}}}, .circles = {{{3 + s, -s}, 1, kMirror}}};
-  EXPECT_NEAR(Scene(w).cast_cone_second_bounce(cone(0, 0), {}, 1).range_m, 3 + 4, 1e-12);
+  EXPECT_NEAR(BothIndices(w).cast_cone_second_bounce(cone(0, 0), {}, 1).range_m, 3 + 4, 1e-12);
   // From inside: the same wall is met again after one chord, 2·cos(incidence)·r, at the same incidence. Sent back only
   // by a box in the way.
   w = {.boxes = {{{0, 1.2}, 6, 0.4, 0, {}}}, .circles = {{{0, 0}, 2, {30 * kDegree}}}};
   const double x = 2 * s;  // meets the circle at (x, -x), 45° from its normal, and goes up
-  EXPECT_NEAR(Scene(w).cast_cone_second_bounce({-1, -x, 0, 0, 0.1, 8}, {}, 1).range_m, x + 1 + x + 1, 1e-12);
+  EXPECT_NEAR(BothIndices(w).cast_cone_second_bounce({-1, -x, 0, 0, 0.1, 8}, {}, 1).range_m, x + 1 + x + 1, 1e-12);
   w.boxes.clear();
-  EXPECT_EQ(Scene(w).cast_cone_second_bounce({-1, -x, 0, 0, 0.1, 8}, {}, 1).status, EchoStatus::none);
+  EXPECT_EQ(BothIndices(w).cast_cone_second_bounce({-1, -x, 0, 0, 0.1, 8}, {}, 1).status, EchoStatus::none);
 }
 
 TEST(SecondBounce, MoversMirrorAndAreMirrored) {
   const World mirror{.walls = {{{-1, 0}, {1, 0}, kMirror}}}, box{.boxes = {{{0, 0}, 2, 1, 0, {}}}};
   const std::vector<World> shapes{mirror, box};
-  const Scene scene({}, shapes);
+  const BothIndices scene({}, shapes);
   const std::vector<Placement> at{{2, 0, 45 * kDegree}, {2, 3.5, 180 * kDegree}};
   EXPECT_NEAR(scene.cast_cone_second_bounce(cone(0, 0), at, 1).range_m, 5, 1e-12);
   EXPECT_EQ(scene.cast_cone_second_bounce(cone(0, 0), {}, 1).status, EchoStatus::none);
@@ -99,7 +100,7 @@ TEST(SecondBounce, EqualsBruteForce) {
     if (k % 2) make_absorbing(fixed, r);
     std::vector<Placement> at;
     for (std::size_t i = 0; i < shapes.size(); ++i) at.push_back(random_placement(r));
-    const Scene scene(fixed, shapes);
+    const BothIndices scene(fixed, shapes);
     const FlatRays flat(with(fixed, shapes, at));
     for (int c = 0; c < 25; ++c, ++cones) {
       ConeQuery q = random_cone(r);
@@ -126,7 +127,7 @@ TEST(SecondBounce, EqualsBruteForce) {
 }
 
 TEST(SecondBounce, NeedsARay) {
-  EXPECT_THROW((void)Scene(World{}).cast_cone_second_bounce(cone(0, 0), {}, 0), std::invalid_argument);
+  EXPECT_THROW((void)BothIndices(World{}).cast_cone_second_bounce(cone(0, 0), {}, 0), std::invalid_argument);
 }
 
 }  // namespace

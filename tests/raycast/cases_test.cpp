@@ -6,12 +6,15 @@
 #include <limits>
 #include <stdexcept>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/reference.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "random_world.hpp"
 
 namespace evigrid::raycast {
 namespace {
+
+using testing::BothIndices;
 
 using testing::kDegree;
 
@@ -21,7 +24,7 @@ ConeQuery cone(double x, double y, double yaw_deg, double aperture_deg = 15, dou
 
 /// Both casters must give this answer.
 void expect(const World& world, const ConeQuery& q, EchoStatus status, double range_m) {
-  const Echo fast = Scene(world).cast_cone(q), slow = reference_cone(world, q);
+  const Echo fast = BothIndices(world).cast_cone(q), slow = reference_cone(world, q);
   EXPECT_EQ(static_cast<int>(fast.status), static_cast<int>(status)) << "caster: " << fast.range_m;
   EXPECT_EQ(static_cast<int>(slow.status), static_cast<int>(status)) << "reference: " << slow.range_m;
   if (status == EchoStatus::none) {
@@ -148,18 +151,21 @@ TEST(Cases, BadWorldsAndQueriesAreRefusedByName) {
     }
     return "accepted";
   };
-  EXPECT_EQ(message([&] { Scene({.walls = {{{0, 0}, {0, nan}, {}}}}); }), "wall 0: a coordinate is not finite");
+  EXPECT_EQ(message([&] { BothIndices({.walls = {{{0, 0}, {0, nan}, {}}}}); }), "wall 0: a coordinate is not finite");
   EXPECT_EQ(message([&] {
-              Scene({.circles = {{{0, 0}, 1, {}}, {{0, 0}, -1, {}}}});
+              BothIndices({.circles = {{{0, 0}, 1, {}}, {{0, 0}, -1, {}}}});
             }),
             "circle 1: radius_m is negative");
-  EXPECT_EQ(message([&] { Scene({.boxes = {{{0, 0}, -1, 1, 0, {}}}}); }), "box 0: length_m or width_m is negative");
-  EXPECT_EQ(message([&] { Scene({.polygons = {{{{0, 0}}, {}}}}); }), "polygon 0: has fewer than two vertices");
   EXPECT_EQ(message([&] {
-              Scene({.walls = {{{0, 0}, {1, 0}, {2}}}});
+              BothIndices({.boxes = {{{0, 0}, -1, 1, 0, {}}}});
+            }),
+            "box 0: length_m or width_m is negative");
+  EXPECT_EQ(message([&] { BothIndices({.polygons = {{{{0, 0}}, {}}}}); }), "polygon 0: has fewer than two vertices");
+  EXPECT_EQ(message([&] {
+              BothIndices({.walls = {{{0, 0}, {1, 0}, {2}}}});
             }),
             "wall 0: critical_incidence_rad is outside [0, pi/2]");
-  const Scene scene(World{});
+  const BothIndices scene(World{});
   EXPECT_NE(message([&] { (void)scene.cast_cone(cone(nan, 0, 0)); }), "accepted");
   EXPECT_NE(message([&] { (void)scene.cast_cone(cone(0, 0, 0, 200)); }), "accepted");
   EXPECT_NE(message([&] { (void)scene.cast_cone(cone(0, 0, 0, 15, 3, 2)); }), "accepted");
@@ -170,7 +176,7 @@ TEST(Cases, FloatingPointModesOfTheCallerAreKept) {
   const World w{.walls = {{{2, -5}, {2, 5}, kShiny}}};
   const unsigned before = 0x1f80;  // the default: nothing flushed, rounding to nearest, no traps
   _mm_setcsr(before);
-  const Scene scene(w);
+  const BothIndices scene(w);
   (void)scene.cast_cone(cone(0, 0, 40));
   (void)scene.ray_range(0, 0, 0, 5);
   EXPECT_EQ(_mm_getcsr() & ~0x3fu, before);  // but for the sticky exception flags

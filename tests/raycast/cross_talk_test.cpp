@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "flat_rays.hpp"
 #include "placed_world.hpp"
@@ -22,11 +23,11 @@ TEST(CrossTalk, OverAWall) {
   const double way = std::hypot(0.5, 2), towards = std::atan2(2, 0.5) / kDegree;
   const ConeQuery a = sonar(0, 0, towards, 20), b = sonar(1, 0, 180 - towards, 20);
   for (double critical_deg : {90.0, 20.0, 1e-6}) {
-    const Scene scene({.walls = {{{-5, 2}, {5, 2}, {critical_deg * kDegree}}}});
+    const BothIndices scene({.walls = {{{-5, 2}, {5, 2}, {critical_deg * kDegree}}}});
     EXPECT_NEAR(scene.cross_talk(a, b, {}, 33).range_m, way, 1e-12) << critical_deg;
     EXPECT_NEAR(scene.cross_talk(b, a, {}, 33).range_m, way, 1e-12) << critical_deg;
   }
-  const Scene scene({.walls = {{{-5, 2}, {5, 2}, {}}}});
+  const BothIndices scene({.walls = {{{-5, 2}, {5, 2}, {}}}});
   EXPECT_EQ(scene.cross_talk(a, sonar(1, 0, towards + 90, 20)).status, EchoStatus::none) << "looks elsewhere";
   EXPECT_EQ(scene.cross_talk(sonar(0, 0, 20, 20), b).status, EchoStatus::none) << "the speaker looks elsewhere";
   EXPECT_EQ(scene.cross_talk(a, sonar(1, 0, 180 - towards, 20, 2), {}, 33).status, EchoStatus::none) << "too far";
@@ -42,7 +43,7 @@ TEST(CrossTalk, MirroredAwayWhereTheBisectorIsNotNearTheNormal) {
   const ConeQuery a = sonar(2 * std::tan(30 * kDegree), 0, 120, 0), b = sonar(2 * std::tan(60 * kDegree), 0, 150, 0);
   const double way = (2 / std::cos(30 * kDegree) + 2 / std::cos(60 * kDegree)) / 2;
   for (double critical_deg : {44.0, 46.0}) {
-    const Scene scene({.walls = {{{-5, 2}, {5, 2}, {critical_deg * kDegree}}}});
+    const BothIndices scene({.walls = {{{-5, 2}, {5, 2}, {critical_deg * kDegree}}}});
     for (const auto& [speaker, listener] : {std::pair(a, b), std::pair(b, a)}) {
       const Echo heard = scene.cross_talk(speaker, listener, {}, 1);
       EXPECT_EQ(heard.status, critical_deg > 45 ? EchoStatus::ok : EchoStatus::none) << critical_deg;
@@ -58,7 +59,7 @@ TEST(CrossTalk, NothingInBetween) {
   const ConeQuery a = sonar(0, 0, towards, 20), b = sonar(1, 0, 180 - towards, 20);
   const World wall{.walls = {{{-5, 2}, {5, 2}, {}}}};
   const World screen{.walls = {{{-0.5, 0}, {0.5, 0}, {}}}};
-  const Scene scene(wall, {&screen, 1});
+  const BothIndices scene(wall, {&screen, 1});
   for (const auto& [speaker, listener] : {std::pair(a, b), std::pair(b, a)}) {
     const Placement before_a{0.1, 1, 0}, turned_away{0.5, 1, 90 * kDegree}, gone{0, 9, 0};
     EXPECT_EQ(scene.cross_talk(speaker, listener, {&before_a, 1}, 33).status, EchoStatus::none);
@@ -66,12 +67,12 @@ TEST(CrossTalk, NothingInBetween) {
     EXPECT_EQ(scene.cross_talk(speaker, listener, {&turned_away, 1}, 33).status, EchoStatus::ok);
   }
   // From the other side of a wall nothing comes through.
-  EXPECT_EQ(Scene(wall).cross_talk(sonar(0, 4, -90, 60), b).status, EchoStatus::none);
+  EXPECT_EQ(BothIndices(wall).cross_talk(sonar(0, 4, -90, 60), b).status, EchoStatus::none);
 }
 
 TEST(CrossTalk, AbsorbedOnce) {
   const double way = std::hypot(0.5, 2), towards = std::atan2(2, 0.5) / kDegree;
-  const Scene scene({.walls = {{{-5, 2}, {5, 2}, {1, 0.75}}}});  // heard up to half of the range
+  const BothIndices scene({.walls = {{{-5, 2}, {5, 2}, {1, 0.75}}}});  // heard up to half of the range
   for (double share : {0.9999, 1.0001}) {
     const ConeQuery a = sonar(0, 0, towards, 20, 2 * way * share), b = sonar(1, 0, 180 - towards, 20, 2 * way * share);
     EXPECT_EQ(scene.cross_talk(a, b, {}, 33).status, share > 1 ? EchoStatus::ok : EchoStatus::none);
@@ -83,7 +84,7 @@ TEST(CrossTalk, OneSonarInBothRolesHearsItsEcho) {
   int ok = 0;
   for (int k = 0; k < 10; ++k) {
     const World world = random_room(r);
-    const Scene scene(world);
+    const BothIndices scene(world);
     for (int c = 0; c < 40; ++c) {
       ConeQuery q = random_cone(r);
       q.min_range_m = 0;
@@ -104,7 +105,7 @@ TEST(CrossTalk, EqualsBruteForceAndBothWays) {
     if (k % 2) make_absorbing(fixed, r);
     std::vector<Placement> at;
     for (std::size_t i = 0; i < shapes.size(); ++i) at.push_back(random_placement(r));
-    const Scene scene(fixed, shapes);
+    const BothIndices scene(fixed, shapes);
     const FlatRays flat(with(fixed, shapes, at));
     for (int c = 0; c < 25; ++c, ++pairs) {
       ConeQuery a = random_cone(r), b = a;
@@ -133,7 +134,7 @@ TEST(CrossTalk, EqualsBruteForceAndBothWays) {
 }
 
 TEST(CrossTalk, BadQuestionsAreRefused) {
-  const Scene scene(World{});
+  const BothIndices scene(World{});
   const ConeQuery good = sonar(0, 0, 0, 20), bad = sonar(0, 0, 0, 200);
   EXPECT_THROW((void)scene.cross_talk(bad, good), std::invalid_argument);
   EXPECT_THROW((void)scene.cross_talk(good, bad), std::invalid_argument);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "random_world.hpp"
 
@@ -82,7 +83,7 @@ TEST(CastCone, DenseRaysComeDownToItAndNeverBelow) {
   int cones = 0, off_64 = 0, off_20000 = 0, off_1mm = 0;
   for (int k = 0; k < 10; ++k) {
     const World world = random_room(r);
-    const Scene scene(world);
+    const BothIndices scene(world);
     const Flat flat(world);
     for (int c = 0; c < 40; ++c, ++cones) {
       ConeQuery q = random_cone(r);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/reference.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "placed_world.hpp"
@@ -16,7 +17,7 @@ using namespace testing;
 
 double angle_of(const FanQuery& q, int i) { return q.yaw_rad + q.first_rad + i * q.step_rad; }
 
-void expect_equal(const World& all, const Scene& scene, const FanQuery& q, const std::vector<Placement>& at,
+void expect_equal(const World& all, const BothIndices& scene, const FanQuery& q, const std::vector<Placement>& at,
                   double tolerance_m) {
   std::vector<double> ranges_m(static_cast<std::size_t>(q.beams), -1);
   scene.cast_fan(q, ranges_m, at);
@@ -45,7 +46,7 @@ TEST(Fans, EqualSingleRaysAndReference) {
     World fixed = random_room(r);
     std::vector<World> shapes = random_movers(r);
     if (k % 2) make_absorbing(fixed, r);
-    const Scene scene(fixed, shapes);
+    const BothIndices scene(fixed, shapes);
     for (int c = 0; c < 20; ++c) {
       std::vector<Placement> at;
       for (std::size_t i = 0; i < shapes.size(); ++i) at.push_back(random_placement(r));
@@ -68,7 +69,7 @@ TEST(Fans, EqualOnAlignedScenes) {
     }
     w.boxes.push_back({{lattice(6), lattice(4)}, 1, 0.5, 0, {}});
     w.circles.push_back({{lattice(6), lattice(4)}, 0.23, {}});
-    const Scene scene(w);
+    const BothIndices scene(w);
     for (int c = 0; c < 10; ++c) {
       // Not from a wall: what a ray along it meets first is a matter of rounding there.
       const FanQuery q{lattice(5) + 0.125, lattice(3) + 0.125, 0, 0, 15 * kDegree, 24, 5};
@@ -82,7 +83,7 @@ TEST(Fans, EqualOnAlignedScenes) {
 
 TEST(Fans, RangeLimitIsClosedAndEdgeOnWallsAreMet) {
   const World w{.walls = {{{5, -5}, {5, 5}, {}}, {{2, 1}, {3, 1}, {}}}};
-  const Scene scene(w);
+  const BothIndices scene(w);
   double range[3];
   scene.cast_fan({0, 0, -0.3, 0, 0.3, 3, 5}, range);
   EXPECT_TRUE(std::isinf(range[0]) && std::isinf(range[2]));
@@ -94,7 +95,7 @@ TEST(Fans, RangeLimitIsClosedAndEdgeOnWallsAreMet) {
 TEST(Fans, FromFarAway) {
   Random r(43);
   const World world = random_room(r);
-  const Scene scene(world);
+  const BothIndices scene(world);
   for (int c = 0; c < 20; ++c) {
     const double towards = r.uniform(-3, 3), x = 4 - 1000 * std::cos(towards), y = 3 - 1000 * std::sin(towards);
     expect_equal(world, scene, {x, y, towards, -0.004, 0.0002, 41, 2000}, {}, 1e-7);
@@ -102,7 +103,7 @@ TEST(Fans, FromFarAway) {
 }
 
 TEST(Fans, NoBeamsAndBadOnes) {
-  const Scene scene(World{});
+  const BothIndices scene(World{});
   scene.cast_fan({.beams = 0}, {});
   std::vector<double> ten(10);
   EXPECT_THROW(scene.cast_fan({.beams = 9, .max_range_m = 1}, ten), std::invalid_argument);
@@ -117,7 +118,7 @@ TEST(Many, SameBitsForAnyNumberOfThreads) {
   Random r(44);
   const World fixed = random_room(r);
   const std::vector<World> shapes = random_movers(r);
-  const Scene scene(fixed, shapes);
+  const BothIndices scene(fixed, shapes);
   std::vector<Placement> at;
   for (std::size_t i = 0; i < shapes.size(); ++i) at.push_back(random_placement(r));
   std::vector<ConeQuery> cones;
@@ -149,7 +150,7 @@ TEST(Many, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Many, BadCallsLeaveTheAnswersAlone) {
-  const Scene scene(World{});
+  const BothIndices scene(World{});
   std::vector<ConeQuery> queries(3, {0, 0, 0, 0.2, 0, 1});
   std::vector<Echo> echoes(3, {EchoStatus::ok, 7});
   EXPECT_THROW(scene.cast_cones(queries, {echoes.data(), 2}), std::invalid_argument);

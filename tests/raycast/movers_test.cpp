@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/reference.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "placed_world.hpp"
@@ -24,7 +25,7 @@ const ConeQuery kAhead{0, 0, 0, 15 * kDegree, 0.1, 5};
 
 TEST(Movers, StandWhereTheirPlacementSays) {
   const std::vector<World> pole{{.circles = {{{1, 0}, 0.1, {}}}}};  // 1 m ahead of its own origin
-  const Scene scene({.walls = {{{4, -5}, {4, 5}, {}}}}, pole);
+  const BothIndices scene({.walls = {{{4, -5}, {4, 5}, {}}}}, pole);
   const auto range = [&](Placement p) { return scene.cast_cone(kAhead, {&p, 1}).range_m; };
   EXPECT_NEAR(range({1, 0, 0}), 1.9, 1e-12);
   EXPECT_NEAR(range({2, 1, -90 * kDegree}), 1.9, 1e-12);
@@ -38,14 +39,14 @@ TEST(Movers, SilentMoverHidesAnEchoingWallAndTheOtherWayRound) {
   const World wall{.walls = {{{3, -5}, {3, 5}, {}}}};
   const World plate{.walls = {{{-1, -1}, {1, 1}, kShiny}}};  // 45°
   const Placement at{2, 0, 0}, behind{4, 0, 0}, aside{2, 1.2, 0};
-  const Scene shiny_moves(wall, {&plate, 1});
+  const BothIndices shiny_moves(wall, {&plate, 1});
   EXPECT_EQ(shiny_moves.cast_cone(kAhead, {&at, 1}).status, EchoStatus::none);
   EXPECT_NEAR(shiny_moves.cast_cone(kAhead, {&behind, 1}).range_m, 3, 1e-9);
   // The plate's lower part hides what lies left of the direction to its end (1, 0.2); the wall begins there.
   EXPECT_NEAR(shiny_moves.cast_cone({0, 0, 10 * kDegree, 15 * kDegree, 0.1, 5}, {&aside, 1}).range_m,
               3 / std::cos(2.5 * kDegree), 1e-9);
   const World fixed_plate{.walls = {{{1, -1}, {3, 1}, kShiny}}}, moving_wall{.walls = {{{0, -5}, {0, 5}, {}}}};
-  const Scene wall_moves(fixed_plate, {&moving_wall, 1});
+  const BothIndices wall_moves(fixed_plate, {&moving_wall, 1});
   const Placement far{3, 0, 0}, near{0.9, 0, 0}, turned{3, 0, 180 * kDegree};
   EXPECT_EQ(wall_moves.cast_cone(kAhead, {&far, 1}).status, EchoStatus::none);
   EXPECT_EQ(wall_moves.cast_cone(kAhead, {&turned, 1}).status, EchoStatus::none);
@@ -62,7 +63,7 @@ void compare(std::uint64_t seed, Point shift, double tolerance_m, bool absorbing
     if (absorbing) make_absorbing(fixed, r);
     for (World& s : shapes)
       if (absorbing) make_absorbing(s, r);
-    const Scene scene(fixed, shapes);
+    const BothIndices scene(fixed, shapes);
     for (int turn = 0; turn < 4; ++turn) {
       std::vector<Placement> at;
       for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -103,7 +104,7 @@ TEST(Movers, EqualReferenceFarFromTheOrigin) { compare(33, {432100.25, 5412345.5
 
 TEST(Movers, BadPlacementsAndShapesAreRefusedByName) {
   const std::vector<World> two(2);
-  const Scene scene({}, two);
+  const BothIndices scene({}, two);
   const auto message = [](const auto& call) -> std::string {
     try {
       call();
@@ -118,14 +119,14 @@ TEST(Movers, BadPlacementsAndShapesAreRefusedByName) {
   EXPECT_EQ(message([&] { (void)scene.cross_talk(kAhead, kAhead, one); }), "movers: 1 placements for 2 movers");
   EXPECT_EQ(message([&] { (void)scene.cast_cone_second_bounce(kAhead, bad); }), "movers: a placement is not finite");
   const std::vector<World> shapes{{}, {.circles = {{{0, 0}, -1, {}}}}};
-  EXPECT_EQ(message([&] { Scene({}, shapes); }), "mover 1: circle 0: radius_m is negative");
+  EXPECT_EQ(message([&] { BothIndices({}, shapes); }), "mover 1: circle 0: radius_m is negative");
 }
 
 TEST(Movers, ThreadsCastWithPlacementsOfTheirOwn) {
   Random r(34);
   const World fixed = random_room(r);
   const std::vector<World> shapes = random_movers(r);
-  const Scene scene(fixed, shapes);
+  const BothIndices scene(fixed, shapes);
   std::vector<std::vector<Placement>> moments(8);
   for (auto& at : moments)
     for (std::size_t i = 0; i < shapes.size(); ++i) at.push_back(random_placement(r));

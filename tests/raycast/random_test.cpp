@@ -2,6 +2,7 @@
 // The caster against the reference, which shares neither Embree nor the candidates with it.
 #include <gtest/gtest.h>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/reference.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "random_world.hpp"
@@ -27,7 +28,7 @@ Tally compare(int worlds, int cones, std::uint64_t seed, Point shift, double tol
     for (Circle& c : world.circles) move(c.centre);
     for (Polygon& p : world.polygons)
       for (Point& v : p.vertices) move(v);
-    const Scene scene(world);
+    const BothIndices scene(world);
     for (int c = 0; c < cones; ++c) {
       ConeQuery q = random_cone(r);
       q.x_m += shift.x_m;
@@ -65,7 +66,7 @@ TEST(CastCone, RoundRoomSeenFromInside) {
     world.circles.push_back({{4, 3}, r.uniform(1, 5), any_material(r)});
     for (int i = 0; i < 3; ++i)
       world.circles.push_back({{r.uniform(0, 8), r.uniform(0, 6)}, r.uniform(0.1, 2), any_material(r)});
-    const Scene scene(world);
+    const BothIndices scene(world);
     for (int c = 0; c < 100; ++c) {
       const ConeQuery q = random_cone(r);
       const Echo expected = reference_cone(world, q), got = scene.cast_cone(q);
@@ -81,7 +82,7 @@ TEST(RayRange, EqualsReference) {
   Random r(4);
   for (int k = 0; k < 20; ++k) {
     const World world = random_room(r);
-    const Scene scene(world);
+    const BothIndices scene(world);
     for (int c = 0; c < 200; ++c) {
       const double x = r.uniform(-3, 11), y = r.uniform(-3, 9), angle = r.uniform(-4, 4), max = r.uniform(0.5, 20);
       const double expected = reference_ray(world, x, y, angle, max), got = scene.ray_range(x, y, angle, max);

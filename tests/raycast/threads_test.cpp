@@ -7,16 +7,19 @@
 #include <thread>
 #include <vector>
 
+#include "both_indices.hpp"
 #include "evigrid/raycast/scene.hpp"
 #include "random_world.hpp"
 
 namespace evigrid::raycast {
 namespace {
 
+using testing::BothIndices;
+
 TEST(Threads, SameBitsFromManyThreads) {
   testing::Random r(11);
   const World world = testing::random_room(r);
-  const Scene scene(world), again(world);
+  const BothIndices scene(world), again(world);
   std::vector<ConeQuery> queries;
   for (int i = 0; i < 2000; ++i) queries.push_back(testing::random_cone(r));
   std::vector<double> alone;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One signature, three executors: every index once, workers within bounds, and the threads asked for really run.
+// One signature, four executors: every index once, workers within bounds, and the threads asked for really run.
 #include "evigrid/executor.hpp"
 
 #include "sanitizer.hpp"
@@ -47,7 +47,7 @@ void run(Executor& e, Seen& seen, int wait_us) {
 TEST(Executor, EveryIndexOnceAndWorkersInRange) {
   if (testing::kThreadSanitizer)
     GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
-  for (const char* name : {"serial", "tbb", "openmp"}) {
+  for (const char* name : {"serial", "tbb", "openmp", "spin"}) {
     for (const int threads : {1, 2, 7}) {
       const auto e = make_executor(name, threads);
       ASSERT_TRUE(e);
@@ -72,6 +72,9 @@ TEST(Executor, TheThreadsAskedForReallyRun) {
   EXPECT_EQ(serial.threads.size(), 1u);
   run(*make_openmp_executor(7), openmp, 300);
   EXPECT_EQ(openmp.threads.size(), 7u);
+  Seen spin(700);
+  run(*make_spinning_executor(7), spin, 300);
+  EXPECT_EQ(spin.threads.size(), 7u);
   if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor: TBB runs one thread here";
   Seen tbb(400);
   run(*make_tbb_executor(2), tbb, 500);

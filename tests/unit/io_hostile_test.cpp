@@ -101,8 +101,8 @@ TEST(HostileMap, SizesAreCheckedBeforeAnythingIsAllocated) {
     }
   }
   std::string newer = whole;
-  put(newer, 8, 2, 4);
-  EXPECT_NE(message_of(sealed(newer)).find("format version 2, newer than 1"), std::string::npos);
+  put(newer, 8, kMapFileVersion + 1, 4);
+  EXPECT_NE(message_of(sealed(newer)).find("format version 3, newer than 2"), std::string::npos);
   std::string longer = whole;
   put(longer, 12, 0xFFFFFFFF, 4);
   put(longer, 20, crc(longer.substr(0, 20)), 4);

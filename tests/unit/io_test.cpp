@@ -17,7 +17,7 @@ namespace evigrid {
 namespace {
 
 // A field added to these structures is to be saved too: engine/src/io/header.cpp lists them.
-static_assert(sizeof(Sensor) == 200 && sizeof(MapParams) == 24, "list the new field in engine/src/io/header.cpp");
+static_assert(sizeof(Sensor) == 336 && sizeof(MapParams) == 56, "list the new field in engine/src/io/header.cpp");
 
 std::string bytes_of(const Map& map) {
   std::ostringstream out;
@@ -95,7 +95,13 @@ TEST(SavedMap, TheLastStampIsKept) {
 }
 
 TEST(SavedMap, EveryParameterComesBack) {
-  Map map({.cell_m = 0.1 + 1e-17 + 1.0 / 3, .rule = Rule::pcr2, .kernel = Kernel::scalar, .memory_cap_bytes = 1 << 25});
+  Map map({.cell_m = 0.1 + 1e-17 + 1.0 / 3,
+           .rule = Rule::pcr2,
+           .kernel = Kernel::scalar,
+           .keep_con = true,
+           .keep_last_conflict = true,
+           .bayes = {Likelihood::plp, 0.01, 0.98},
+           .memory_cap_bytes = 1 << 25});
   Sensor s;  // no field has its default
   s.model = Model::beam;
   s.T_robot_sensor = {0.1, -0.2, 1.0 / 3};
@@ -105,6 +111,7 @@ TEST(SavedMap, EveryParameterComesBack) {
   s.no_return_m = 81.9;
   s.clear_no_return = true;
   s.reliability = 0.85;
+  s.reliability_if_empty = 0.7, s.reliability_if_occupied = 0.6;
   s.beams = 180;
   s.first_beam_rad = -1.5;
   s.beam_step_rad = 0.0174;
@@ -117,6 +124,12 @@ TEST(SavedMap, EveryParameterComesBack) {
   const Map loaded = load(view(bytes));
   EXPECT_EQ(loaded.params().cell_m, map.params().cell_m);
   EXPECT_EQ(loaded.params().rule, Rule::pcr2);
+  EXPECT_TRUE(loaded.params().keep_con && loaded.params().keep_last_conflict);
+  EXPECT_EQ(loaded.params().bayes.likelihood, Likelihood::plp);
+  EXPECT_EQ(loaded.params().bayes.least_p, 0.01);
+  EXPECT_EQ(loaded.params().bayes.most_p, 0.98);
+  EXPECT_EQ(loaded.sensors()[1].reliability_if_empty, 0.7);
+  EXPECT_EQ(loaded.sensors()[1].reliability_if_occupied, 0.6);
   EXPECT_EQ(loaded.params().kernel, Kernel::scalar);
   EXPECT_EQ(loaded.kernel_name(), "scalar");
   EXPECT_EQ(loaded.params().keep_conflict, true);

@@ -79,6 +79,61 @@ TEST(Params, MapsTakeOnlyTheRulesTheyHavePlanesFor) {
   }
 }
 
+TEST(Params, PairsThatDoNotFitAreRefusedByName) {
+  int allowed = 0;
+  for (const Rule rule : map_rules()) {
+    for (const Model model : all_models()) {
+      const bool probability = model == Model::probability,
+                 member = model == Model::fuzzy || model == Model::moravec1985;
+      const bool fits = probability ? rule == Rule::bayes : !member || rule == Rule::fuzzy;
+      EXPECT_EQ(why_not_together(rule, model).empty(), fits) << name(rule) << ' ' << name(model);
+      Map map({.rule = rule}, make_serial_executor());
+      Sensor s;
+      s.model = model;
+      s.beam_step_rad = 0.01;
+      if (fits) {
+        ++allowed;
+        EXPECT_NO_THROW(map.add(s)) << name(rule) << ' ' << name(model);
+        continue;
+      }
+      try {
+        map.add(s);
+        ADD_FAILURE() << name(rule) << ' ' << name(model);
+      } catch (const std::invalid_argument& e) {
+        EXPECT_NE(
+            std::string(e.what()).find(std::string(name(model)) + " cannot be fused by " + std::string(name(rule))),
+            std::string::npos)
+            << e.what();
+      }
+    }
+  }
+  EXPECT_GT(allowed, 50);
+}
+
+TEST(Params, EveryModelParameterIsReadWrittenAndChecked) {
+  for (const Model model : all_models()) {
+    ASSERT_FALSE(model_params(model).empty());
+    for (const ModelParam& p : model_params(model)) {
+      Sensor s;
+      s.model = model;
+      s.beam_step_rad = 0.01;
+      EXPECT_EQ(model_param(s, model, p.name), p.standard);
+      EXPECT_TRUE(p.standard >= p.least && p.standard <= p.most) << p.name;
+      const double other = p.is_switch ? 1 - p.standard : (p.least + p.most) / 2;
+      EXPECT_TRUE(set_model_param(s, model, p.name, other));
+      EXPECT_EQ(model_param(s, model, p.name), other) << p.name;
+      if (p.is_switch) continue;
+      EXPECT_TRUE(set_model_param(s, model, p.name, p.most * 1.01 + 1));
+      bool named = false;
+      for (const auto& e : check(s)) named = named || e.field.ends_with(p.name);
+      EXPECT_TRUE(named) << name(model) << ' ' << p.name;
+    }
+  }
+  Sensor s;
+  EXPECT_FALSE(set_model_param(s, Model::li2006, "nonsense", 1));
+  EXPECT_FALSE(model_param(s, Model::li2006, "nonsense"));
+}
+
 TEST(Params, NamesRoundTrip) {
   for (const Rule r : all_rules()) EXPECT_EQ(rule_from_name(name(r)), r);
   for (const Model m : all_models()) EXPECT_EQ(model_from_name(name(m)), m);

@@ -13,6 +13,7 @@
 #include "error.hpp"
 #include "log/readers.hpp"
 #include "mapping.hpp"
+#include "model_options.hpp"
 #include "out/out_dir.hpp"
 #include "picture/sheet.hpp"
 #include "score/truth.hpp"
@@ -133,12 +134,16 @@ void compare(const CompareOptions& given) {
     if (is_sonar_model(model)) sonar_models.push_back(model);
   }
   if (o.rules.empty()) throw InputError("--rules: names no rule");
+  std::vector<std::string> models = o.models;
+  models.emplace_back(name(Model::beam));
+  require_used(parse_settings(o.mapping.params), models);
+  o.mapping.params_of_other_models = true;
   OutDir out(o.mapping.out_dir);
   const std::vector<Subject> subjects = read_subjects(o);
 
   std::vector<Result> results;
   std::optional<scenes::TruthGrid> truth;
-  std::string no_truth;
+  std::string no_truth, not_together;
   CellRect all{};
   if (!o.mapping.cell_m) {  // one for all, the finest that any of them would take: scores and sheet compare cells
     for (const Subject& subject : subjects) {
@@ -151,8 +156,15 @@ void compare(const CompareOptions& given) {
     const bool cones = std::any_of(subject.log.sensors.begin(), subject.log.sensors.end(),
                                    [](const LogSensor& s) { return s.sensor.model != Model::beam; });
     if (cones && sonar_models.empty()) throw InputError("--models: names no model for sonars");
+    if (subject.scene) use_filter(*subject.scene, options);
     for (const std::string& rule : o.rules) {
       for (const std::string& model : cones ? sonar_models : std::vector<std::string>{""}) {
+        if (!model.empty()) {
+          if (const auto why = why_not_together(parse_map_rule(rule), parse_model(model)); !why.empty()) {
+            not_together = fmt::format("{} cannot be fused by {}: {}", model, rule, why);
+            continue;
+          }
+        }
         options.rule = rule;
         options.model = model;
         const Plan plan = make_plan(options);
@@ -166,6 +178,8 @@ void compare(const CompareOptions& given) {
       }
     }
   }
+
+  if (results.empty()) throw InputError(not_together);
 
   std::vector<CompareRow> rows;
   std::vector<Panel> panels;

@@ -25,12 +25,12 @@ namespace {
 
 double cells_of(const CellRect& rect) { return static_cast<double>(rect.width) * static_cast<double>(rect.height); }
 std::string size_of(const CellRect& rect) { return fmt::format("{} x {} cells", rect.width, rect.height); }
-constexpr double kPlaneBytes = 4 * sizeof(float);
+constexpr double kPlaneBytes = 4 * sizeof(float);  // of one cell; c, Con and the last conflict come on top
 
 constexpr std::string_view kModeNames[] = {"trinary", "scale", "raw"};  // in the order of PgmMode
 
 std::uint8_t pixel(const Layers& l, std::size_t i, PgmMode mode) {
-  const double betp = l.o()[i] + 0.5 * l.u()[i];
+  const double betp = value_of(Layer::betp, l.mass(i));
   switch (mode) {
     case PgmMode::trinary:
       return betp > kOccupiedThreshold ? 0 : betp < kFreeThreshold ? 254 : 205;
@@ -55,21 +55,37 @@ Layers render_layers(const Map& map, int cap_mb) {
 }
 
 Layers render_layers(const Map& map, const CellRect& rect, std::string_view name, int cap_mb) {
-  require_fits(name, size_of(rect), cells_of(rect) * kPlaneBytes, cap_mb);
   Layers out;
   out.rect = rect;
   out.cell_m = map.params().cell_m;
   const std::size_t n = out.cells();
-  out.planes.resize(4 * n);
-  constexpr Layer kOrder[] = {Layer::empty, Layer::bel, Layer::unknown, Layer::conflict};
-  for (std::size_t i = 0; i < 4 && n > 0; ++i) {
-    map.render(kOrder[i], out.rect, std::span(out.planes).subspan(i * n, n), out.rect.width);
+  std::vector<Layer> order{Layer::empty, Layer::bel, Layer::unknown, Layer::conflict};
+  const auto also = [&](bool kept, Layer layer, int& plane) {
+    if (!kept) return;
+    plane = static_cast<int>(order.size());
+    order.push_back(layer);
+  };
+  also(keeps_paradox(map.params().rule), Layer::paradox, out.paradox);
+  also(map.params().keep_con, Layer::con, out.con);
+  also(map.params().keep_last_conflict, Layer::last_conflict, out.last_conflict);
+  require_fits(name, size_of(rect), cells_of(rect) * static_cast<double>(order.size() * sizeof(float)), cap_mb);
+  out.planes.resize(order.size() * n);
+  for (std::size_t i = 0; i < order.size() && n > 0; ++i) {
+    map.render(order[i], out.rect, std::span(out.planes).subspan(i * n, n), out.rect.width);
   }
   return out;
 }
 
+std::string plane_names(const Layers& l) {
+  std::string out = "e, o, u, running sum of conflict";
+  if (l.paradox >= 0) out += ", mass on empty and occupied at once";
+  if (l.con >= 0) out += ", Con";
+  if (l.last_conflict >= 0) out += ", conflict of the last update";
+  return out;
+}
+
 std::string npy_head(const Layers& layers) {
-  return npy_head("<f4", fmt::format("(4, {}, {})", layers.rect.height, layers.rect.width));
+  return npy_head("<f4", fmt::format("({}, {}, {})", layers.count(), layers.rect.height, layers.rect.width));
 }
 
 PgmMode parse_pgm_mode(const std::string& name) {

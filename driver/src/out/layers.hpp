@@ -15,13 +15,21 @@ namespace evigrid::driver {
 struct Layers {
   CellRect rect{};  ///< in cells of the map
   double cell_m = 0;
-  std::vector<float> planes;  ///< e, o, u, conflict, one after the other
+  /// One after the other: e, o, u, conflict, and, where the map keeps them, c, Con and the last conflict.
+  std::vector<float> planes;
+  int paradox = -1, con = -1, last_conflict = -1;  ///< which plane; −1 is none
 
   [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(rect.width * rect.height); }
   [[nodiscard]] const float* e() const { return planes.data(); }
   [[nodiscard]] const float* o() const { return planes.data() + cells(); }
   [[nodiscard]] const float* u() const { return planes.data() + 2 * cells(); }
   [[nodiscard]] const float* conflict() const { return planes.data() + 3 * cells(); }
+  /// Cell i of an optional plane, 0 without it.
+  [[nodiscard]] float optional(int plane, std::size_t i) const {
+    return plane < 0 ? 0.0F : planes[static_cast<std::size_t>(plane) * cells() + i];
+  }
+  [[nodiscard]] Mass mass(std::size_t i) const { return {e()[i], o()[i], u()[i], optional(paradox, i)}; }
+  [[nodiscard]] std::size_t count() const { return cells() == 0 ? 4 : planes.size() / cells(); }
 };
 
 /// Throws InputError naming the output and its size when that is above `cap_mb`.
@@ -33,7 +41,9 @@ Layers render_layers(const Map& map, int cap_mb);
 /// The planes of a rectangle, for the output `name`.
 Layers render_layers(const Map& map, const CellRect& rect, std::string_view name, int cap_mb);
 
-/// Head of a NumPy file (version 1.0) of little-endian float32, shape (4, height, width), C order.
+/// "e, o, u, running sum of conflict …": what the planes are.
+std::string plane_names(const Layers& layers);
+/// Head of a NumPy file (version 1.0) of little-endian float32, shape (planes, height, width), C order.
 std::string npy_head(const Layers& layers);
 
 /// How ROS map_server reads an image. trinary: 0 occupied, 254 free, 205 unknown, by the thresholds. scale: the grey is

@@ -12,25 +12,38 @@ namespace evigrid::driver {
 namespace {
 
 constexpr LookRow kRows[] = {
-    {Look::betp, "betp", "BetP(occupied) = m(occupied) + m(unknown)/2", "BetP", Ramp::rdbu},
-    {Look::bel, "bel", "Bel(occupied) = m(occupied)", "Bel", Ramp::viridis},
-    {Look::pl, "pl", "Pl(occupied) = m(occupied) + m(unknown)", "Pl", Ramp::viridis},
-    {Look::empty, "empty", "m(empty)", "m", Ramp::viridis},
-    {Look::unknown, "unknown", "m(unknown)", "m", Ramp::viridis},
-    {Look::ignorance, "ignorance", "ignorance = Pl(occupied) - Bel(occupied)", "Pl-Bel", Ramp::viridis},
-    {Look::entropy, "entropy", "entropy of BetP", "bit", Ramp::viridis},
-    {Look::conflict, "conflict", "conflict met on the way: sum of k", "sum k", Ramp::oranges},
+    {Look::betp, "betp", "BetP(occupied) = m(occupied) + m(unknown)/2", "BetP", Ramp::rdbu, Layer::betp},
+    {Look::bel, "bel", "Bel(occupied) = m(occupied)", "Bel", Ramp::viridis, Layer::bel},
+    {Look::pl, "pl", "Pl(occupied) = m(occupied) + m(unknown)", "Pl", Ramp::viridis, Layer::pl},
+    {Look::empty, "empty", "m(empty)", "m", Ramp::viridis, Layer::empty},
+    {Look::unknown, "unknown", "m(unknown)", "m", Ramp::viridis, Layer::unknown},
+    {Look::ignorance, "ignorance", "ignorance = Pl(occupied) - Bel(occupied)", "Pl-Bel", Ramp::viridis,
+     Layer::ignorance},
+    {Look::entropy, "entropy", "entropy of BetP", "bit", Ramp::viridis, Layer::entropy},
+    {Look::conflict, "conflict", "conflict met on the way: sum of k", "sum k", Ramp::oranges, Layer::conflict},
+    {Look::con, "con", "weight of conflict: sum of -ln(1 - k)", "nat", Ramp::oranges, Layer::con},
+    {Look::last_conflict, "last_conflict", "conflict of the last update", "k", Ramp::oranges, Layer::last_conflict},
+    {Look::paradox, "paradox", "m(nothing), or of empty and occupied at once", "m", Ramp::oranges, Layer::paradox},
+    {Look::commonality, "commonality", "commonality of occupied", "q", Ramp::viridis, Layer::commonality},
+    {Look::plp, "plp", "PlP(occupied): plausibility, normalised", "PlP", Ramp::rdbu, Layer::plp},
+    {Look::dsmp, "dsmp", "DSmP(occupied), epsilon 0.001", "DSmP", Ramp::rdbu, Layer::dsmp},
+    {Look::free_betp, "free_betp", "generalised pignistic of occupied, free DSm model", "GPT", Ramp::viridis,
+     Layer::free_betp},
+    {Look::free_both, "free_both", "generalised pignistic of both at once, free DSm model", "GPT", Ramp::viridis,
+     Layer::free_both},
+    {Look::specificity, "specificity", "specificity = sum of m(A)/|A|", "S", Ramp::viridis, Layer::specificity},
+    {Look::internal_conflict, "internal_conflict", "internal conflict = -sum of m log2 Pl", "bit", Ramp::oranges,
+     Layer::internal_conflict},
+    {Look::decision, "decision", "decided: m(unknown) < 1/2 and the larger mass", "", Ramp::rdbu, Layer::decision},
+    {Look::decision_betp, "decision_betp", "decided: BetP at least 0.65 either way", "", Ramp::rdbu,
+     Layer::decision_betp},
+    {Look::fuzzy_map, "fuzzy_map", "fuzzy map M of the memberships e, o", "M", Ramp::rdbu, Layer::fuzzy_map},
     {Look::costmap, "costmap", "costs of costmap_2d from BetP", "cost", Ramp::viridis},
     {Look::mixed, "mixed", "masses mixed", "", {}},
     {Look::composite, "composite", "grey composite of the three beliefs", "", {}},
     {Look::panels, "panels", "three beliefs and their composite", "", {}},
-    {Look::surface, "surface", "Bel(occupied) as a surface", "", {}},
+    {Look::surface, "surface", "Bel(occupied) as a surface", "", {}, Layer::bel},
 };
-
-double entropy_bits(double p) noexcept {
-  const auto part = [](double q) { return q > 0 ? -q * std::log2(q) : 0; };
-  return part(p) + part(1 - p);
-}
 
 /// The least 1, 2 or 5 · 10^k that is not below x.
 double round_up(double x) noexcept {
@@ -80,43 +93,28 @@ std::vector<Look> parse_looks(const std::string& option, const std::string& name
   return out;
 }
 
-double value_of(Look look, const Layers& l, std::size_t i) noexcept {
-  const double o = l.o()[i], u = l.u()[i];
-  switch (look) {
-    case Look::betp:
-      return o + 0.5 * u;
-    case Look::bel:
-    case Look::surface:
-      return o;
-    case Look::pl:
-      return o + u;
-    case Look::empty:
-      return l.e()[i];
-    case Look::unknown:
-    case Look::ignorance:  // Pl − Bel: the same for every rule that leaves no mass on the paradox
-      return u;
-    case Look::entropy:
-      return entropy_bits(std::clamp(o + 0.5 * u, 0.0, 1.0));
-    case Look::conflict:
-      return l.conflict()[i];
-    case Look::costmap:
-      return cost_of(Costmap{}, {l.e()[i], l.o()[i], l.u()[i]});
-    case Look::mixed:
-    case Look::composite:
-    case Look::panels:
-      break;
-  }
-  return 0;
+bool is_kept(Look look, const Layers& l) noexcept {
+  return !(look == Look::con && l.con < 0) && !(look == Look::last_conflict && l.last_conflict < 0);
 }
 
-bool never_seen(const Layers& l, std::size_t i) noexcept { return l.u()[i] == 1 && l.e()[i] == 0 && l.o()[i] == 0; }
+double value_of(Look look, const Layers& l, std::size_t i) noexcept {
+  if (look == Look::conflict) return l.conflict()[i];
+  if (look == Look::con) return l.optional(l.con, i);
+  if (look == Look::last_conflict) return l.optional(l.last_conflict, i);
+  if (look == Look::costmap) return cost_of(Costmap{}, l.mass(i));
+  const LookRow& row = row_of(look);
+  return row.layer ? evigrid::value_of(*row.layer, l.mass(i)) : 0;
+}
+
+bool never_seen(const Layers& l, std::size_t i) noexcept { return l.mass(i) == Mass{}; }
 
 double top_of(Look look, const Layers& l) {
   if (look == Look::costmap) return 252;
-  if (look != Look::conflict) return 1;
+  if (look != Look::conflict && look != Look::con) return 1;
   std::vector<float> seen;
   for (std::size_t i = 0; i < l.cells(); ++i) {
-    if (l.conflict()[i] > 0) seen.push_back(l.conflict()[i]);
+    const auto v = static_cast<float>(value_of(look, l, i));
+    if (v > 0) seen.push_back(v);
   }
   if (seen.empty()) return 1;
   const auto at = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() - 1 - seen.size() / 100);

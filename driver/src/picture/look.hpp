@@ -23,6 +23,19 @@ enum class Look {
   ignorance,  ///< Pl − Bel: the width of the belief interval
   entropy,    ///< of BetP, bits
   conflict,
+  con,            ///< this and the next only of maps that keep them
+  last_conflict,
+  paradox,        ///< m(∅), or of both at once
+  commonality,
+  plp,
+  dsmp,
+  free_betp,
+  free_both,
+  specificity,
+  internal_conflict,
+  decision,
+  decision_betp,
+  fuzzy_map,
   costmap,
   mixed,      ///< the masses mixed: map.png
   composite,  ///< one grey picture of the three masses, as Hughes & Murphy 1992 look at theirs
@@ -35,6 +48,7 @@ struct LookRow {
   std::string_view name, title;
   std::string_view unit;  ///< above the colour bar
   std::optional<Ramp> ramp;  ///< none: no number of a cell
+  std::optional<Layer> layer{};  ///< of the engine, for its numbers
 };
 std::span<const LookRow> all_looks() noexcept;
 const LookRow& row_of(Look) noexcept;
@@ -44,6 +58,8 @@ std::vector<Look> parse_looks(const std::string& option, const std::string& name
 Look parse_look(const std::string& option, const std::string& name);
 std::string look_names();
 
+/// Whether the map that the layers came from keeps what the look shows.
+bool is_kept(Look, const Layers&) noexcept;
 /// Cell i of the layers as the look's number.
 double value_of(Look, const Layers&, std::size_t i) noexcept;
 /// No reading ever said anything about cell i.

@@ -72,7 +72,7 @@ Canvas draw_numbers(const LookRow& row, const Layers& layers, const std::vector<
   const int bar_x = page.frame.left + page.frame.width_px() + 12;
   const int bar_h = std::clamp(page.frame.height_px() - kLine_px - 8, 150, 420);
   page.canvas.text(bar_x, kHead_px, row.unit, 2, kInk);
-  draw_colour_bar(page.canvas, bar_x, kHead_px + kLine_px, bar_h, top, row.look == Look::conflict, colour);
+  draw_colour_bar(page.canvas, bar_x, kHead_px + kLine_px, bar_h, top, row.look == Look::conflict || row.look == Look::con, colour);
   std::vector<std::pair<Rgb, std::string_view>> swatches{{kNeverSeen, costs ? "no information (255)" : "never seen"}};
   if (costs) swatches.insert(swatches.begin(), {{kLethal, "lethal (254)"}, {colour(0), "free (0)"}});
   draw_foot(page, swatches, !path.empty());

@@ -98,27 +98,34 @@ Layers coarse(const Layers& in, std::int64_t block) {
   out.rect = {0, 0, (in.rect.width + block - 1) / block, (in.rect.height + block - 1) / block};
   out.cell_m = in.cell_m * static_cast<double>(block);
   const std::size_t n = out.cells();
-  out.planes.resize(4 * n);
+  out.paradox = in.paradox, out.con = in.con, out.last_conflict = in.last_conflict;
+  out.planes.resize(in.count() * n);
   for (std::int64_t y = 0; y < out.rect.height; ++y) {
     for (std::int64_t x = 0; x < out.rect.width; ++x) {
-      double sum[3] = {0, 0, 0}, cells = 0;
-      float most[3] = {0, 0, 1}, conflict = 0;
+      double sum[4] = {0, 0, 0, 0}, cells = 0;
+      float most[4] = {0, 0, 1, 0}, history[3] = {0, 0, 0};
       bool first = true;
       for (std::int64_t j = y * block; j < std::min((y + 1) * block, in.rect.height); ++j) {
         for (std::int64_t i = x * block; i < std::min((x + 1) * block, in.rect.width); ++i) {
           const auto at = static_cast<std::size_t>(j * in.rect.width + i);
-          const float masses[3] = {in.e()[at], in.o()[at], in.u()[at]};
-          for (int k = 0; k < 3; ++k) sum[k] += masses[k];
-          if (first || masses[1] > most[1]) std::copy(masses, masses + 3, most);
+          const Mass m = in.mass(at);
+          const float masses[4] = {m.e, m.o, m.u, m.c};
+          for (int k = 0; k < 4; ++k) sum[k] += masses[k];
+          if (first || masses[1] > most[1]) std::copy(masses, masses + 4, most);
           first = false;
-          conflict = std::max(conflict, in.conflict()[at]);
+          const float met[3] = {in.conflict()[at], in.optional(in.con, at), in.optional(in.last_conflict, at)};
+          for (int k = 0; k < 3; ++k) history[k] = std::max(history[k], met[k]);
           cells += 1;
         }
       }
       const auto to = static_cast<std::size_t>(y * out.rect.width + x);
-      for (std::size_t k = 0; k < 3; ++k)
-        out.planes[k * n + to] = most[1] > 0.5F ? most[k] : static_cast<float>(sum[k] / cells);
-      out.planes[3 * n + to] = conflict;
+      const int mass_planes[4] = {0, 1, 2, in.paradox}, history_planes[3] = {3, in.con, in.last_conflict};
+      const auto put = [&](int plane, float value) {
+        if (plane >= 0) out.planes[static_cast<std::size_t>(plane) * n + to] = value;
+      };
+      for (int k = 0; k < 4; ++k)
+        put(mass_planes[k], most[1] > 0.5F ? most[k] : static_cast<float>(sum[k] / cells));
+      for (int k = 0; k < 3; ++k) put(history_planes[k], history[k]);
     }
   }
   return out;

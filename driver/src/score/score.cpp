@@ -13,8 +13,7 @@ using scenes::TruthCell;
 constexpr double kLeastProbability = 1e-6;  // one certain mistake must not outweigh a whole map
 
 double share(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? std::numeric_limits<double>::quiet_NaN()
-                    : static_cast<double>(part) / static_cast<double>(whole);
+  return whole == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(part) / static_cast<double>(whole);
 }
 
 /// Whether any of the up to nine cells around (x, y) satisfies `is`.
@@ -122,9 +121,8 @@ Decision decide(float e, float o, float u) noexcept {
 
 bool visible_wall(const Overlay& o, std::size_t i) {
   const auto at = static_cast<std::int64_t>(i);
-  return o.truth[i] == TruthCell::surface &&
-         near_by(o.rect, at % o.rect.width, at / o.rect.width,
-                 [&](std::size_t k) { return o.truth[k] == TruthCell::free; });
+  return o.truth[i] == TruthCell::surface && near_by(o.rect, at % o.rect.width, at / o.rect.width,
+                                                     [&](std::size_t k) { return o.truth[k] == TruthCell::free; });
 }
 
 Overlay overlay(const Layers& map, const scenes::TruthGrid& truth) {
@@ -170,7 +168,9 @@ Score score(const Layers& map, const scenes::TruthGrid& truth, const Overlay& bo
       const std::int64_t mx = x - m.x, my = y - m.y;
       if (mx >= 0 && my >= 0 && mx < m.width && my < m.height) {
         const auto k = static_cast<std::size_t>(my * m.width + mx);
-        belief = {map.e()[k], map.o()[k], map.u()[k]};
+        const double known = static_cast<double>(map.e()[k]) + map.o()[k] + map.u()[k];  // without m(∅)
+        const double by = map.optional(map.paradox, k) > 0 && known > 0 ? known : 1;
+        belief = {map.e()[k] / by, map.o()[k] / by, map.u()[k] / by};
       }
       means.add(belief, cell == TruthCell::surface);
     }
@@ -200,9 +200,8 @@ nlohmann::ordered_json to_json(const Score& s) {
   out["map_score"] = s.map_score;
   out["entropy_bits"] = s.entropy;
   out["ignorance"] = s.ignorance;
-  out["confusion_cells"] = {{"free", row(TruthCell::free)},
-                            {"surface", row(TruthCell::surface)},
-                            {"solid", row(TruthCell::solid)}};
+  out["confusion_cells"] = {
+      {"free", row(TruthCell::free)}, {"surface", row(TruthCell::surface)}, {"solid", row(TruthCell::solid)}};
   return out;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "evigrid/executor.hpp"
@@ -31,8 +32,42 @@ std::uint64_t combine(Rule, Planes<const float> a, Planes<const float> b, Planes
 std::uint64_t combine(Rule, Planes<const double> a, Planes<const double> b, Planes<double> c, double* conflict,
                       std::size_t n, Executor* = nullptr);
 
+/// Two or more sources, one after the other in their order, in one pass over memory: the bits of the calls above, one
+/// for each source after the first, without the memory traffic between them. C may be the first source. `conflict` is
+/// the sum over the steps; returned is the number of steps in total conflict. Mass on empty ∩ occupied that a rule
+/// leaves goes on into the next step, whether C keeps it or not. murphy takes the mean of all s sources and combines
+/// it s − 1 times by Dempster's rule. Throws std::invalid_argument for fewer than two sources.
+std::uint64_t combine(Rule, std::span<const Planes<const float>> sources, Planes<float> c, float* conflict,
+                      std::size_t n, Kernel = Kernel::automatic, Executor* = nullptr);
+std::uint64_t combine(Rule, std::span<const Planes<const double>> sources, Planes<double> c, double* conflict,
+                      std::size_t n, Executor* = nullptr);
+
+/// Masses at 16 bits (unorm16), a third of the memory: e[i] and o[i] in steps of 1/65535, the unknown is the rest, 0
+/// when rounding took e + o above 1. For large arrays whose masses need no more than four decimals; docs/maths.md says
+/// what each rule makes of the rounding.
+template <class T>
+struct Unorm16Planes {
+  T* e = nullptr;
+  T* o = nullptr;
+};
+
+/// C = A ⊕ B on such arrays: computed in float, rounded to the nearest step, ties to even; the same bits on every
+/// kernel. Throws std::invalid_argument too for conjunctive and dsmc, whose results are no masses of e, o, u alone.
+/// fuzzy: e and o are the memberships, the rest means nothing.
+std::uint64_t combine(Rule, Unorm16Planes<const std::uint16_t> a, Unorm16Planes<const std::uint16_t> b,
+                      Unorm16Planes<std::uint16_t> c, float* conflict, std::size_t n, Kernel = Kernel::automatic,
+                      Executor* = nullptr);
+/// Rounds e and o (within [0, 1]) to the nearest step; u is dropped.
+void to_unorm16(Planes<const float> from, Unorm16Planes<std::uint16_t> to, std::size_t n) noexcept;
+/// As the kernels read them. c, where `to` has it, is left alone.
+void from_unorm16(Unorm16Planes<const std::uint16_t> from, Planes<float> to, std::size_t n) noexcept;
+
 /// Kernels compiled in that this processor can run, widest last; and the one `automatic` takes.
 std::string_view resolve_kernel_name(Kernel);
 bool kernel_available(Kernel) noexcept;
+
+/// Membership in "occupied for planning" of chapter 14, eq. 14.18, from those of empty and of occupied:
+/// 1 − Ψ²(1 − Ω)(1 − ΨΩ)(1 − (1 − Ψ)(1 − Ω)). Never seen is 1.
+[[nodiscard]] double fuzzy_map(double empty, double occupied) noexcept;
 
 }  // namespace evigrid

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who runs the tiles. One signature for serial, TBB, OpenMP and the host's own threads; results never depend on it.
+// Who runs the tiles. One signature for serial, TBB, OpenMP, spinning threads and the host's own; results never depend
+// on it.
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -23,7 +25,14 @@ class Executor {
 std::unique_ptr<Executor> make_serial_executor();
 std::unique_ptr<Executor> make_tbb_executor(int threads = 0);
 std::unique_ptr<Executor> make_openmp_executor(int threads = 0);
-/// By name: "serial", "tbb", "openmp"; nullptr for another name.
+/// Threads of its own that, after work, look for more for `spin` before they sleep: a scan that comes within that time
+/// starts on all of them at once (about a microsecond), where threads that sleep take 50 µs and more to wake. The price
+/// is stated by `spin`: each thread but the caller keeps a core busy for at most that long after the last work; 0
+/// sleeps at once. The caller works too, as worker 0, and never waits for a sleeper. Run from inside a task, beside
+/// another run, or in a forked child, it runs on the calling thread alone. An exception of a task comes out of run().
+inline constexpr std::chrono::microseconds kSpinDefault{20'000};
+std::unique_ptr<Executor> make_spinning_executor(int threads = 0, std::chrono::microseconds spin = kSpinDefault);
+/// By name: "serial", "tbb", "openmp", "spin"; nullptr for another name.
 std::unique_ptr<Executor> make_executor(std::string_view name, int threads = 0);
 
 }  // namespace evigrid

@@ -26,7 +26,7 @@ class MapFileError : public std::runtime_error {
       : std::runtime_error(std::string(file) + ": " + std::string(reason)) {}
 };
 
-inline constexpr std::uint32_t kMapFileVersion = 1;  ///< older ones stay readable
+inline constexpr std::uint32_t kMapFileVersion = 2;  ///< older ones stay readable
 
 /// What a file says of itself without its cells.
 struct MapFileInfo {
@@ -34,7 +34,7 @@ struct MapFileInfo {
   int maths_version = 0;  ///< of the program that fused the map
   MapParams params;
   std::vector<Sensor> sensors;
-  std::vector<std::string> planes;  ///< "e", "o", "u" and, where kept, "conflict"
+  std::vector<std::string> planes;  ///< of the state, "e", "o", "u" for most rules, then "conflict" … where kept
   std::optional<std::int64_t> last_stamp_ns;
   std::uint64_t hash = 0;  ///< Map::hash() when it was saved
   std::uint64_t tiles = 0, file_bytes = 0, memory_bytes = 0;

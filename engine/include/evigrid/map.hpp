@@ -5,28 +5,48 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "evigrid/executor.hpp"
+#include "evigrid/readout.hpp"
 #include "evigrid/scan.hpp"
 #include "evigrid/sensor.hpp"
 #include "evigrid/types.hpp"
 
 namespace evigrid {
 
+/// How a reading's masses become the likelihoods that the rule bayes multiplies, by the share of m(unknown) in each:
+/// betp a half (pignistic probability), plp all of it (plausibility; then bayes is the PlP of Dempster's rule).
+enum class Likelihood : std::uint8_t { betp, plp };
+std::string_view name(Likelihood) noexcept;
+std::optional<Likelihood> likelihood_from_name(std::string_view) noexcept;
+
+/// Rule bayes alone. A cell's probability of occupied stays within the limits, so that it can still be turned.
+struct BayesParams {
+  Likelihood likelihood = Likelihood::betp;
+  double least_p = 0.001, most_p = 0.999;
+};
+
 struct MapParams {
   double cell_m = 0.05;               ///< side of a cell
   Rule rule = Rule::pcr5;             ///< combination rule of the whole map
   Kernel kernel = Kernel::automatic;  ///< which kernels run
   bool keep_conflict = true;          ///< a plane with the running sum of k
+  bool keep_con = false;              ///< and one with −Σ ln(1 − k); only beside keep_conflict
+  bool keep_last_conflict = false;    ///< and one with k of the last update; only beside keep_conflict
+  BayesParams bayes{};
   std::size_t memory_cap_bytes = std::size_t{4}
                                  << 30;  ///< of the tiles; integrate() throws std::length_error beyond it
+  /// Filter of false reflections (Li et al. 2014): of three neighbours of a ring, in the order of their bearings, the
+  /// third reading stays when |d3 − d2| < |d1 − d2| + this, m. Below 0: off.
+  double false_reflection_m = -1;
 };
 [[nodiscard]] std::vector<ParamError> check(const MapParams&);
 
-/// How masses become costs of navigation, by BetP = o + u/2. As in ROS map_server, what lies above lethal_above is
+/// How masses become costs of navigation, by BetP. As in ROS map_server, what lies above lethal_above is
 /// occupied and what lies below free_below is free.
 struct Costmap {
   double free_below = 0.196, lethal_above = 0.65;
@@ -64,15 +84,23 @@ class Map {
   Report integrate(const Scan&);
   Report integrate(std::span<const Scan>);
 
-  [[nodiscard]] Mass mass(CellIndex) const noexcept;       ///< vacuous where nothing was seen
-  [[nodiscard]] float conflict(CellIndex) const noexcept;  ///< running sum of k, 0 without the plane
+  /// Takes scans back that were integrated before: the cells get the bits they would have without them, whatever came
+  /// between. Rules whose cells are sums (dempster_log, murphy); throws std::logic_error for others. The planes of
+  /// conflict keep what was met on the way, and the last stamp stays.
+  Report undo(const Scan&);
+  Report undo(std::span<const Scan>);
+
+  [[nodiscard]] Mass mass(CellIndex) const noexcept;            ///< vacuous where nothing was seen
+  [[nodiscard]] float conflict(CellIndex) const noexcept;       ///< running sum of k, 0 without the plane
+  [[nodiscard]] float con(CellIndex) const noexcept;            ///< −Σ ln(1 − k), 0 without the plane
+  [[nodiscard]] float last_conflict(CellIndex) const noexcept;  ///< k of the last update, 0 without the plane
   [[nodiscard]] CellIndex cell_at(double x_m, double y_m) const noexcept;
 
   /// Smallest box around all non-vacuous cells.
   [[nodiscard]] CellRect bounds() const;
   /// Writes rect row by row, smallest y first, into out; row r starts at out[r·stride]. stride counts floats.
   /// Throws std::invalid_argument when out is too short.
-  void render(Layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) const;
+  void render(Layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride, const ReadOutParams& = {}) const;
   /// The same with occupancy_of each cell. Throws std::invalid_argument too when not 0 ≤ free_below < lethal_above ≤ 1.
   void render(const Costmap&, CellRect rect, std::span<std::int8_t> out, std::ptrdiff_t stride) const;
   /// The same with cost_of each cell.
@@ -84,7 +112,8 @@ class Map {
   /// reached. Its cost grows with what changed, not with the map. Several consumers may each ask with their own version.
   [[nodiscard]] Changes changes(std::uint64_t since) const;
 
-  /// Hash of (index, bits of e, o, u) of the non-vacuous cells in row-major order; independent of tiles and threads.
+  /// Hash of (index, bits of e, o, u and, under the rules that keep one, c) of the non-vacuous cells in row-major order;
+  /// independent of tiles and threads.
   [[nodiscard]] std::uint64_t hash() const;
 
   void clear();

@@ -36,8 +36,9 @@ enum class Refusal : std::uint8_t {
   wrong_beam_count,  ///< a fan's reading with another number of ranges than declared (counted once)
   unknown_sensor,    ///< a sensor that was never added (counted once)
   pose_not_finite,   ///< the scan's pose, or one too far away to index (every range counted)
+  false_reflection,  ///< a cone's reading that leaves its neighbours too far (MapParams::false_reflection_m)
 };
-inline constexpr int kRefusalCount = 8;
+inline constexpr int kRefusalCount = 9;
 std::string_view name(Refusal) noexcept;
 
 struct Report {
@@ -48,7 +49,7 @@ struct Report {
   std::uint64_t cells_updated = 0;                     ///< pairs of a reading (fan: a scan) and a cell
   std::uint64_t total_conflicts = 0;                   ///< updates answered by the total-conflict policy
   float max_conflict = 0;                              ///< largest k of one update
-  CellRect touched{};                                  ///< box of tiles that changed
+  CellRect touched{};                                  ///< box of tiles that accepted readings reached
   [[nodiscard]] std::uint64_t refused_total() const noexcept;
   Report& operator+=(const Report&) noexcept;  ///< sums; touched becomes the union
 };

@@ -3,7 +3,9 @@
 // cone; a laser scanner is one sensor with many beams. Every field, its unit, range and source: engine/src/params/.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "evigrid/types.hpp"
@@ -15,6 +17,40 @@ struct Hughes1992 {
   double r_max_m = 7.62;       ///< range at which belief has fallen to its angular part
   double max_occupied = 0.98;  ///< largest m(occupied)
   double tolerance_m = 0.15;   ///< half width of the occupied arc (ours: the paper gives none)
+};
+
+/// oriolo1997 (Oriolo, Ulivi & Vendittelli 1997, as masses by Asharif et al. 2001). All but kE, kO within what the
+/// literature uses.
+struct Oriolo1997 {
+  double k_empty = 0.1, k_occupied = 0.5;  ///< largest m(empty), m(occupied)
+  double delta_m = 0.15;                   ///< Δ: half width of the arc
+  double rho_v_m = 1.2;                    ///< ρv: where readings are believed half
+};
+
+/// li2006 (Li, Huang & Dezert 2006, chapter 14, eq. 14.6–14.10).
+struct Li2006 {
+  double rho_v = 1;                ///< sharpness of m(occupied), larger where there are few objects
+  double epsilon_m = 0.10;         ///< ε: range error (ours)
+  bool discount_by_lambda = true;  ///< divide by the sum, then discount by λ; false: as printed, λ cancels
+};
+
+/// probability (chapter 14, eq. 14.11–14.13).
+struct Probability {
+  double epsilon_m = 0.10;  ///< ε: half width of the arc (ours)
+  double rho_v_m = 1.2;     ///< ρv: where readings are believed half (ours)
+};
+
+/// fuzzy (chapter 14, eq. 14.15–14.16): memberships.
+struct Fuzzy {
+  double k_empty = 0.1, k_occupied = 0.5;  ///< largest memberships
+  double epsilon_m = 0.10;                 ///< ε: half width of the arc (ours)
+  double rho_v_m = 1.2;                    ///< ρv: where readings are believed half (ours)
+  bool as_printed = false;                 ///< the printed fΩ, occupied where it should be empty
+};
+
+/// moravec1985 (Moravec & Elfes 1985): memberships, that of occupied cancelled by that of empty.
+struct Moravec1985 {
+  double epsilon_m = 0.10;  ///< ε: half width of the arc (ours)
 };
 
 /// li2014 (Li, Huang, Wang, Dezert 2014, eq. 8–13).
@@ -39,11 +75,19 @@ struct Sensor {
   double no_return_m = 1000.0;      ///< readings at or above it mean "no echo": refused, or cleared on request
   bool clear_no_return = false;     ///< "no echo" clears up to max_range_m (fans only)
   double reliability = 1.0;         ///< Shafer discount of every reading, in (0, 1]
+  /// Contextual discount before it, in (0, 1]: reliability where the cell is empty (what m(occupied) keeps), and where
+  /// it is occupied (what m(empty) keeps).
+  double reliability_if_empty = 1.0, reliability_if_occupied = 1.0;
   int beams = 1;                    ///< number of ranges in one reading; > 1 only for a fan
   double first_beam_rad = 0;        ///< bearing of beam 0 in S, counter-clockwise
   double beam_step_rad = 0;         ///< bearing from one beam to the next
   Hughes1992 hughes{};
+  Oriolo1997 oriolo{};
+  Li2006 li2006{};
   Li2014 li{};
+  Probability probability{};
+  Fuzzy fuzzy{};
+  Moravec1985 moravec{};
   Beam beam{};
 };
 
@@ -57,12 +101,28 @@ struct ParamError {
 /// Empty when the sensor is valid; every bad field otherwise.
 [[nodiscard]] std::vector<ParamError> check(const Sensor&);
 
+/// One parameter of a model, from the table that also checks it.
+struct ModelParam {
+  std::string_view name, unit;  ///< as in the model's struct, e.g. "epsilon_m", "m"
+  double least, most, standard;
+  bool is_switch;           ///< 0 or 1
+  std::string_view source;  ///< the paper, or "ours"
+};
+[[nodiscard]] std::vector<ModelParam> model_params(Model);
+/// nullopt when the model has no such parameter.
+[[nodiscard]] std::optional<double> model_param(const Sensor&, Model, std::string_view name);
+/// False when the model has no such parameter. Ranges are left to check().
+bool set_model_param(Sensor&, Model, std::string_view name, double value);
+
 /// Masses of one reading at one point of its cone or on its beam, from the same functions that the map runs.
 struct ModelMass {
-  double e = 0, o = 0, u = 1, c = 0;  ///< c = m(empty ∩ occupied), the paradoxical mass of li2014
+  double e = 0, o = 0, u = 1, c = 0;  ///< c = m(empty ∩ occupied), the paradoxical mass of li2006 and li2014
 };
+/// probability: e = 1 − P, o = P. fuzzy, moravec1985: e and o are memberships, u = (1 − e)(1 − o), c = e·o.
 /// @param range_m reading; @param distance_m, theta_rad the point, from the sensor and off its axis.
-/// Outside the support of the model the answer is vacuous. Throws std::invalid_argument for a bad sensor.
-[[nodiscard]] ModelMass evaluate(const Sensor&, double range_m, double distance_m, double theta_rad);
+/// @param cell_m side of the cells; only moravec1985, whose occupied membership is shared by the cells of the arc,
+/// asks. Outside the support of the model the answer is vacuous. Throws std::invalid_argument for a bad sensor.
+[[nodiscard]] ModelMass evaluate(const Sensor&, double range_m, double distance_m, double theta_rad,
+                                 double cell_m = 0.01);
 
 }  // namespace evigrid

@@ -29,15 +29,17 @@ struct CellRect {
   friend bool operator==(const CellRect&, const CellRect&) = default;
 };
 
-/// Belief masses of one cell on the frame {empty, occupied}: m(empty), m(occupied), m(unknown).
-/// They add up to 1; the vacuous cell is (0, 0, 1).
+/// Belief masses of one cell on the frame {empty, occupied}: m(empty), m(occupied), m(unknown), and c, the mass on
+/// empty ∩ occupied (m(∅) in the open world), 0 under every rule of maps but conjunctive, dsmc and fuzzy. They add up
+/// to 1 (fuzzy: memberships, which do not); the vacuous cell is (0, 0, 1).
 struct Mass {
-  float e = 0, o = 0, u = 1;
+  float e = 0, o = 0, u = 1, c = 0;
   friend bool operator==(const Mass&, const Mass&) = default;
 };
 
-/// Combination rules (docs/maths.md, with sources). The first kMapRuleCount can be the rule of a map; the others leave
-/// what a map has no plane for and work in combine().
+/// Combination rules (docs/maths.md, with sources). The first kMapRuleCount can be the rule of a map; all work in
+/// combine(). dempster_log is Dempster's rule with the cells of a map kept as sums of log-weights: it never saturates,
+/// the order of readings does not change a bit, and a scan can be taken back; in combine() it is dempster.
 enum class Rule : std::uint8_t {
   dempster,
   pcr2,
@@ -54,42 +56,43 @@ enum class Rule : std::uint8_t {
   pcr6plus,
   conjunctive,
   dsmc,
-  disjunctive,
   cautious,
   murphy,
   bayes,
-  fuzzy
+  fuzzy,
+  dempster_log,
+  disjunctive
 };
-inline constexpr int kRuleCount = 20, kMapRuleCount = 13;
+inline constexpr int kRuleCount = 21, kMapRuleCount = 20;
 
-/// Inverse sensor models. hughes1992 and li2014 are sonar cones, beam is a fan of laser beams.
-enum class Model : std::uint8_t { hughes1992, li2014, beam };
-inline constexpr int kModelCount = 3;
+/// Inverse sensor models: sonar cones, and beam, a fan of laser beams. probability says P(occupied), fuzzy and
+/// moravec1985 say memberships of two sets, all others masses.
+enum class Model : std::uint8_t { hughes1992, oriolo1997, li2006, li2014, probability, fuzzy, moravec1985, beam };
+inline constexpr int kModelCount = 8;
 
 /// Which table of kernels runs. `automatic` takes the widest that the processor supports.
 enum class Kernel : std::uint8_t { automatic, scalar, avx2, avx512 };
 
-/// What `render` draws. betp: pignistic probability of occupied, o + u/2. bel: o. pl: o + u.
-/// conflict: running sum of the conflict k of every update (0 where the map keeps none).
-enum class Layer : std::uint8_t { betp, bel, pl, empty, unknown, conflict };
-
 std::string_view name(Rule) noexcept;
 std::string_view name(Model) noexcept;
 std::string_view name(Kernel) noexcept;
-std::string_view name(Layer) noexcept;
 std::optional<Rule> rule_from_name(std::string_view) noexcept;
 std::optional<Model> model_from_name(std::string_view) noexcept;
 std::optional<Kernel> kernel_from_name(std::string_view) noexcept;
 std::span<const Rule> all_rules() noexcept;
 std::span<const Rule> map_rules() noexcept;
 /// The first rule that gives the same for two sources on this frame: itself but for pcr3 (pcr2), pcr6, pcr5plus and
-/// pcr6plus (pcr5), dubois_prade (yager) and dsmc (conjunctive).
+/// pcr6plus (pcr5), dubois_prade (yager) and dsmc (conjunctive). dempster_log counts as itself.
 Rule same_as(Rule) noexcept;
+/// Whether the rule leaves a mass on empty ∩ occupied: conjunctive, dsmc, fuzzy.
+bool keeps_paradox(Rule) noexcept;
 /// Empty for the rules of maps, else the reason.
 std::string_view why_not_in_maps(Rule) noexcept;
 std::span<const Model> all_models() noexcept;
+/// Empty when the rule can fuse what the model says, else the reason.
+std::string_view why_not_together(Rule, Model) noexcept;
 
 /// Raised when a change alters the bits of a map; part of every report.
-inline constexpr int kMathsVersion = 1;
+inline constexpr int kMathsVersion = 2;
 
 }  // namespace evigrid

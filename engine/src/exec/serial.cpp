@@ -22,6 +22,7 @@ std::unique_ptr<Executor> make_executor(std::string_view name, int threads) {
   if (name == "serial") return make_serial_executor();
   if (name == "tbb") return make_tbb_executor(threads);
   if (name == "openmp") return make_openmp_executor(threads);
+  if (name == "spin") return make_spinning_executor(threads);
   return nullptr;
 }
 

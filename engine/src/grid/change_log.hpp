@@ -18,9 +18,14 @@ namespace evigrid {
 using BlockMask = std::uint64_t;
 inline constexpr int kBlockSide = 8, kBlocksPerSide = 8;
 
-inline BlockMask blocks_of(const std::uint8_t* micros, int count) noexcept {
+/// The blocks of a list of micro-tiles; cones number them in bytes, fans in floats.
+template <class Number>
+BlockMask blocks_of(const Number* micros, int count) noexcept {
   BlockMask mask = 0;
-  for (int i = 0; i < count; ++i) mask |= BlockMask{1} << ((micros[i] >> 5) * kBlocksPerSide + (micros[i] & 15) / 2);
+  for (int i = 0; i < count; ++i) {
+    const auto micro = static_cast<unsigned>(micros[i]);
+    mask |= BlockMask{1} << ((micro >> 5) * kBlocksPerSide + (micro & 15) / 2);
+  }
   return mask;
 }
 

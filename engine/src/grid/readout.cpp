@@ -11,39 +11,66 @@
 namespace evigrid {
 namespace {
 
-constexpr int kSide = kernels::kTileSide;
+constexpr int kSide = kernels::kTileSide, kMicro = kernels::kMicroSide, kCells = kernels::kMicroCells;
+constexpr float kZeros[kCells] = {};
 
-CellState state_at(const TileStore& store, const Tile& tile, int x, int y) noexcept {
+/// The masses of four rows of a tile's cells: the unit of reading. Micro-tiles beside each other lie one after the
+/// other, so it is one call of the kernel.
+struct Strip {
+  alignas(64) float masses[kernels::kMicrosPerSide * 4 * kCells];
+
+  void read(const TileStore& store, const Tile& tile, int y) {
+    store.layout().read_out(tile.cells.get() + store.cell_offset(0, y & ~3), store.planes(), kernels::kMicrosPerSide,
+                            masses);
+  }
+  [[nodiscard]] Mass at(int x, int y) const noexcept {
+    const float* p = masses + (x / kMicro) * 4 * kCells + (y % kMicro) * kMicro + x % kMicro;
+    return {p[0], p[kCells], p[2 * kCells], p[3 * kCells]};
+  }
+};
+
+void add_history(const TileStore& store, const Tile& tile, int x, int y, CellState& out) noexcept {
+  const CellLayout& l = store.layout();
   const float* p = tile.cells.get() + store.cell_offset(x, y);
-  return {{p[0], p[kernels::kMicroCells], p[2 * kernels::kMicroCells]},
-          store.planes() == 4 ? p[3 * kernels::kMicroCells] : 0.0f};
+  if (l.conflict >= 0) out.conflict = p[l.conflict * kCells];
+  if (l.con >= 0) out.con = p[l.con * kCells];
+  if (l.last_conflict >= 0) out.last_conflict = p[l.last_conflict * kCells];
 }
 
 bool vacuous(const Mass& m) noexcept { return m == Mass{}; }
 
-/// The planes of a micro-tile, 16 cells each; k is null without the plane of conflict.
+/// A micro-tile as read: its masses, and the history that the map keeps, 16 cells each (zeros where it keeps none).
 struct Micro {
-  const float *e, *o, *u, *k;
+  const float *e, *o, *u, *c, *k, *con, *last;
 };
 
 /// One layer of a micro-tile.
-void layer_of(Layer layer, const Micro& m, float* out) noexcept {
+void layer_of(Layer layer, const ReadOutParams& params, const Micro& m, float* out) noexcept {
   const auto each = [&](auto&& of) {
-    for (int i = 0; i < kernels::kMicroCells; ++i) out[i] = of(i);
+    for (int i = 0; i < kCells; ++i) out[i] = of(i);
   };
   switch (layer) {
-    case Layer::betp:
-      return each([&](int i) { return m.o[i] + m.u[i] * 0.5f; });
     case Layer::bel:
       return each([&](int i) { return m.o[i]; });
-    case Layer::pl:
-      return each([&](int i) { return m.o[i] + m.u[i]; });
     case Layer::empty:
       return each([&](int i) { return m.e[i]; });
     case Layer::unknown:
       return each([&](int i) { return m.u[i]; });
     case Layer::conflict:
-      return each([&](int i) { return m.k == nullptr ? 0.0f : m.k[i]; });
+      return each([&](int i) { return m.k[i]; });
+    case Layer::con:
+      return each([&](int i) { return m.con[i]; });
+    case Layer::last_conflict:
+      return each([&](int i) { return m.last[i]; });
+    case Layer::betp:  // the two that robots ask for ten times a second: vectors where there is no c
+    case Layer::pl:
+      if (std::all_of(m.c, m.c + kCells, [](float c) { return c == 0; })) {
+        const float share = layer == Layer::betp ? 0.5f : 1.0f;
+        return each([&](int i) { return m.o[i] + m.u[i] * share; });
+      }
+      [[fallthrough]];
+    default:
+      return each([&](int i) { return static_cast<float>(value_of(layer, {m.e[i], m.o[i], m.u[i], m.c[i]}, params)); });
   }
 }
 
@@ -55,17 +82,24 @@ void require_room(CellRect rect, std::size_t size, std::ptrdiff_t stride) {
 }
 
 /// The part of `rect` in one tile, micro-tile by micro-tile: of(micro, out) makes 16 values, straight from the planes
-/// so that the compiler sees vectors; those within the rectangle go to their rows. `part` lies in the tile.
+/// where these are masses so that the compiler sees vectors; those within the rectangle go to their rows. `part` lies
+/// in the tile.
 template <class T, class F>
 void fill_tile(const TileStore& store, const Tile& tile, CellRect part, T* to, std::ptrdiff_t stride, F&& of) {
-  constexpr int kMicro = kernels::kMicroSide, kCells = kernels::kMicroCells;
   const int x0 = static_cast<int>(part.x & 63), x1 = x0 + static_cast<int>(part.width);
   const int y0 = static_cast<int>(part.y & 63), y1 = y0 + static_cast<int>(part.height);
+  const CellLayout& l = store.layout();
+  Strip strip;
   T values[kCells];
   for (int my = y0 & ~3; my < y1; my += kMicro) {
+    if (!l.planes_are_masses) strip.read(store, tile, my);
     for (int mx = x0 & ~3; mx < x1; mx += kMicro) {
       const float* p = tile.cells.get() + store.cell_offset(mx, my);
-      of(Micro{p, p + kCells, p + 2 * kCells, store.planes() == 4 ? p + 3 * kCells : nullptr}, values);
+      const auto kept = [&](int plane) { return plane < 0 ? kZeros : p + plane * kCells; };
+      const float* masses = l.planes_are_masses ? p : strip.masses + (mx / kMicro) * 4 * kCells;
+      const float* c = l.planes_are_masses ? kept(l.paradox) : masses + 3 * kCells;
+      of(Micro{masses, masses + kCells, masses + 2 * kCells, c, kept(l.conflict), kept(l.con), kept(l.last_conflict)},
+         values);
       const int left = std::max(mx, x0), right = std::min(mx + kMicro, x1);
       for (int y = std::max(my, y0); y < std::min(my + kMicro, y1); ++y)
         std::copy_n(values + (y - my) * kMicro + (left - mx), right - left, to + (y - y0) * stride + (left - x0));
@@ -110,13 +144,27 @@ struct Costs {
         lethal(static_cast<float>(lethal_cost)) {}
 
   /// Selections: with -fno-trapping-math (engine/CMakeLists.txt) the loop over a micro-tile becomes vectors.
-  [[nodiscard]] int of(float o, float u) const noexcept {
-    const float betp = o + 0.5f * u;
+  [[nodiscard]] int of(float e, float o, float u, float c) const noexcept {
+    const float betp = (o + 0.5f * u) / (c > 0 ? (e + o) + u : 1.0f);
     const float between = (betp - free_below) * slope + 1.5f;  // 1 + the nearest whole number, once it is cut
     const float cost = betp > lethal_above ? lethal : betp < free_below ? 0.0f : between;
     return static_cast<int>(u > max_unknown ? none : cost);
   }
 };
+
+/// The same for a micro-tile without c. A function of its own over plain arrays, so that gcc makes vectors of it.
+[[gnu::noinline]] void closed_costs(const Costs& costs, const float* __restrict o, const float* __restrict u,
+                                    int* __restrict out) noexcept {
+  const Costs c = costs;
+  const int none = static_cast<int>(c.none), lethal = static_cast<int>(c.lethal);
+  for (int i = 0; i < kCells; ++i) {
+    const float betp = o[i] + 0.5f * u[i];
+    int cost = static_cast<int>((betp - c.free_below) * c.slope + 1.5f);
+    cost = betp < c.free_below ? 0 : cost;
+    cost = betp > c.lethal_above ? lethal : cost;
+    out[i] = u[i] > c.max_unknown ? none : cost;
+  }
+}
 
 Costs occupancy(const Costmap& c) { return {c, -1, 100, 99}; }
 Costs costs(const Costmap& c) { return {c, 255, 254, 252}; }
@@ -128,11 +176,19 @@ void require_ordered(const Costmap& c) {
 
 template <class T>
 void render_costs(const TileStore& store, const Costs& c, CellRect rect, std::span<T> out, std::ptrdiff_t stride) {
-  fill(store, rect, out, stride, static_cast<T>(c.of(0, 1)), [&c](const Micro& m, T* to) {
-    int cost[kernels::kMicroCells];  // apart from `to`, which as bytes might be anything: then the loop becomes vectors
-    for (int i = 0; i < kernels::kMicroCells; ++i) cost[i] = c.of(m.o[i], m.u[i]);
-    std::copy_n(cost, kernels::kMicroCells, to);
-  });
+  const T never_seen = static_cast<T>(c.of(0, 0, 1, 0));
+  int cost[kCells];  // apart from the output, which as bytes might be anything
+  if (store.layout().planes_are_masses && store.layout().paradox < 0) {
+    fill(store, rect, out, stride, never_seen, [&](const Micro& m, T* to) {
+      closed_costs(c, m.o, m.u, cost);
+      std::copy_n(cost, kCells, to);
+    });
+  } else {
+    fill(store, rect, out, stride, never_seen, [&](const Micro& m, T* to) {
+      for (int i = 0; i < kCells; ++i) cost[i] = c.of(m.e[i], m.o[i], m.u[i], m.c[i]);
+      std::copy_n(cost, kCells, to);
+    });
+  }
 }
 
 /// A 64-bit mix per word (constants of splitmix64): enough for "are these maps the same bits?".
@@ -143,20 +199,33 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t word) noexcept {
   return h ^ (h >> 29);
 }
 
+std::uint64_t two(float low, float high) noexcept {
+  return std::bit_cast<std::uint32_t>(low) | static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(high)) << 32;
+}
+
 }  // namespace
 
 CellState read_cell(const TileStore& store, CellIndex c) noexcept {
   const Tile* tile = store.find(tile_of(c.x, c.y));
-  return tile == nullptr ? CellState{} : state_at(store, *tile, static_cast<int>(c.x & 63), static_cast<int>(c.y & 63));
+  if (tile == nullptr) return {};
+  const int x = static_cast<int>(c.x & 63), y = static_cast<int>(c.y & 63);
+  alignas(64) float m[4 * kCells];
+  store.layout().read_out(tile->cells.get() + store.cell_offset(x & ~3, y & ~3), store.planes(), 1, m);
+  const float* p = m + (y % kMicro) * kMicro + x % kMicro;
+  CellState out{{p[0], p[kCells], p[2 * kCells], p[3 * kCells]}};
+  add_history(store, *tile, x, y, out);
+  return out;
 }
 
 CellRect occupied_bounds(const TileStore& store) {
   constexpr auto kMax = std::numeric_limits<std::int64_t>::max(), kMin = std::numeric_limits<std::int64_t>::min();
   std::int64_t x0 = kMax, x1 = kMin, y0 = kMax, y1 = kMin;
+  Strip strip;
   for (const auto& [at, tile] : store.tiles()) {
     for (int y = 0; y < kSide; ++y) {
+      if (y % kMicro == 0) strip.read(store, tile, y);
       for (int x = 0; x < kSide; ++x) {
-        if (vacuous(state_at(store, tile, x, y).mass)) continue;
+        if (vacuous(strip.at(x, y))) continue;
         x0 = std::min(x0, at.x * kSide + x), x1 = std::max(x1, at.x * kSide + x);
         y0 = std::min(y0, at.y * kSide + y), y1 = std::max(y1, at.y * kSide + y);
       }
@@ -166,18 +235,19 @@ CellRect occupied_bounds(const TileStore& store) {
   return {x0, y0, x1 - x0 + 1, y1 - y0 + 1};
 }
 
-void render_layer(const TileStore& store, Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride) {
-  constexpr float kVacuous[kernels::kMicroCells] = {}, kUnknown[kernels::kMicroCells] = {1};
-  float never_seen[kernels::kMicroCells];
-  layer_of(layer, {kVacuous, kVacuous, kUnknown, kVacuous}, never_seen);
-  fill(store, rect, out, stride, never_seen[0], [layer](const Micro& m, float* to) { layer_of(layer, m, to); });
+void render_layer(const TileStore& store, Layer layer, const ReadOutParams& params, CellRect rect, std::span<float> out,
+                  std::ptrdiff_t stride) {
+  constexpr float kUnknown[kCells] = {1};
+  float never_seen[kCells];
+  layer_of(layer, params, {kZeros, kZeros, kUnknown, kZeros, kZeros, kZeros, kZeros}, never_seen);
+  fill(store, rect, out, stride, never_seen[0], [&](const Micro& m, float* to) { layer_of(layer, params, m, to); });
 }
 
 std::int8_t occupancy_of(const Costmap& c, const Mass& m) noexcept {
-  return static_cast<std::int8_t>(occupancy(c).of(m.o, m.u));
+  return static_cast<std::int8_t>(occupancy(c).of(m.e, m.o, m.u, m.c));
 }
 std::uint8_t cost_of(const Costmap& c, const Mass& m) noexcept {
-  return static_cast<std::uint8_t>(costs(c).of(m.o, m.u));
+  return static_cast<std::uint8_t>(costs(c).of(m.e, m.o, m.u, m.c));
 }
 
 void render_costmap(const TileStore& store, const Costmap& c, CellRect rect, std::span<std::int8_t> out,
@@ -194,19 +264,22 @@ void render_costmap(const TileStore& store, const Costmap& c, CellRect rect, std
 std::uint64_t hash_cells(const TileStore& store) {
   std::uint64_t h = 0x45564947524944ull;  // "EVIGRID"
   const auto& tiles = store.tiles();
+  std::vector<Strip> strips;
   for (auto band = tiles.begin(); band != tiles.end();) {
     auto band_end = band;
     while (band_end != tiles.end() && band_end->first.y == band->first.y) ++band_end;
+    strips.resize(static_cast<std::size_t>(std::distance(band, band_end)));
     for (int y = 0; y < kSide; ++y) {
-      for (auto it = band; it != band_end; ++it) {
+      auto strip = strips.begin();
+      for (auto it = band; it != band_end; ++it, ++strip) {
+        if (y % kMicro == 0) strip->read(store, it->second, y);
         for (int x = 0; x < kSide; ++x) {
-          const Mass m = state_at(store, it->second, x, y).mass;
+          const Mass m = strip->at(x, y);
           if (vacuous(m)) continue;
           h = mix(h, static_cast<std::uint64_t>(it->first.x * kSide + x));
           h = mix(h, static_cast<std::uint64_t>(it->first.y * kSide + y));
-          h = mix(h, std::bit_cast<std::uint32_t>(m.e) | static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(m.o))
-                                                             << 32);
-          h = mix(h, std::bit_cast<std::uint32_t>(m.u));
+          h = mix(h, two(m.e, m.o));
+          h = mix(h, two(m.u, m.c));  // c: 0 unless the rule keeps one
         }
       }
     }

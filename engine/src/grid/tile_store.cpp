@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "grid/tile_store.hpp"
 
-#include <cstdlib>
-#include <new>
 #include <stdexcept>
 #include <string>
 
 namespace evigrid {
 
-void FreeAligned::operator()(float* p) const noexcept { std::free(p); }
-
-TileStore::TileStore(bool conflict_plane, std::size_t cap_bytes)
-    : planes_(conflict_plane ? 4 : 3), cap_bytes_(cap_bytes) {}
+TileStore::TileStore(CellLayout layout, std::size_t cap_bytes)
+    : layout_(std::move(layout)),
+      planes_(static_cast<int>(layout_.planes.size())),
+      cap_bytes_(cap_bytes),
+      memory_(tile_bytes()) {}
 
 std::size_t TileStore::tile_bytes() const noexcept {
   return static_cast<std::size_t>(kernels::kTileSide * kernels::kTileSide * planes_) * sizeof(float);
 }
 
-const Tile* TileStore::find(TileIndex at) const noexcept {
-  const auto it = tiles_.find(at);
-  return it == tiles_.end() ? nullptr : &it->second;
+void TileStore::clear() noexcept {
+  tiles_.clear();
+  table_.clear();
+  memory_.clear();
 }
 
 void TileStore::reserve(std::size_t more) const {
@@ -34,16 +34,17 @@ Tile& TileStore::get_or_make(TileIndex at) {
   Tile& tile = it->second;
   if (made) {
     tile.index = at;
-    tile.cells.reset(static_cast<float*>(std::aligned_alloc(64, tile_bytes())));
-    if (!tile.cells) {
+    try {
+      tile.cells.reset(memory_.take());
+      table_.insert(at, &tile);
+    } catch (...) {
       tiles_.erase(it);
-      throw std::bad_alloc();
+      throw;
     }
-    // Vacuous: e = 0, o = 0, u = 1, conflict 0.
     float* p = tile.cells.get();
     for (int micro = 0; micro < kernels::kMicrosPerTile; ++micro) {
-      for (int plane = 0; plane < planes_; ++plane) {
-        for (int i = 0; i < kernels::kMicroCells; ++i) *p++ = plane == 2 ? 1.0f : 0.0f;
+      for (const Plane& plane : layout_.planes) {
+        for (int i = 0; i < kernels::kMicroCells; ++i) *p++ = plane.vacuous;
       }
     }
   }

@@ -18,7 +18,13 @@ void each_param(P& p, F&& f) {
   f("rule", p.rule);
   f("kernel", p.kernel);
   f("keep_conflict", p.keep_conflict);
+  f("keep_con", p.keep_con);
+  f("keep_last_conflict", p.keep_last_conflict);
+  f("bayes.likelihood", p.bayes.likelihood);
+  f("bayes.least_p", p.bayes.least_p);
+  f("bayes.most_p", p.bayes.most_p);
   f("memory_cap_bytes", p.memory_cap_bytes);
+  f("false_reflection_m", p.false_reflection_m);
 }
 
 template <class S, class F>
@@ -33,12 +39,29 @@ void each_field(S& s, F&& f) {
   f("no_return_m", s.no_return_m);
   f("clear_no_return", s.clear_no_return);
   f("reliability", s.reliability);
+  f("reliability_if_empty", s.reliability_if_empty);
+  f("reliability_if_occupied", s.reliability_if_occupied);
   f("beams", s.beams);
   f("first_beam_rad", s.first_beam_rad);
   f("beam_step_rad", s.beam_step_rad);
   f("hughes.r_max_m", s.hughes.r_max_m);
   f("hughes.max_occupied", s.hughes.max_occupied);
   f("hughes.tolerance_m", s.hughes.tolerance_m);
+  f("oriolo.k_empty", s.oriolo.k_empty);
+  f("oriolo.k_occupied", s.oriolo.k_occupied);
+  f("oriolo.delta_m", s.oriolo.delta_m);
+  f("oriolo.rho_v_m", s.oriolo.rho_v_m);
+  f("li2006.rho_v", s.li2006.rho_v);
+  f("li2006.epsilon_m", s.li2006.epsilon_m);
+  f("li2006.discount_by_lambda", s.li2006.discount_by_lambda);
+  f("probability.epsilon_m", s.probability.epsilon_m);
+  f("probability.rho_v_m", s.probability.rho_v_m);
+  f("fuzzy.k_empty", s.fuzzy.k_empty);
+  f("fuzzy.k_occupied", s.fuzzy.k_occupied);
+  f("fuzzy.epsilon_m", s.fuzzy.epsilon_m);
+  f("fuzzy.rho_v_m", s.fuzzy.rho_v_m);
+  f("fuzzy.as_printed", s.fuzzy.as_printed);
+  f("moravec.epsilon_m", s.moravec.epsilon_m);
   f("li.rho_e", s.li.rho_e);
   f("li.rho_o", s.li.rho_o);
   f("li.rho_c", s.li.rho_c);
@@ -74,6 +97,7 @@ void write(std::string& out, std::string_view key, const T& value) {
 
 std::optional<Rule> from_name(Rule, std::string_view s) { return rule_from_name(s); }
 std::optional<Model> from_name(Model, std::string_view s) { return model_from_name(s); }
+std::optional<Likelihood> from_name(Likelihood, std::string_view s) { return likelihood_from_name(s); }
 std::optional<Kernel> from_name(Kernel, std::string_view s) { return kernel_from_name(s); }
 
 template <class T>

@@ -94,13 +94,13 @@ Opened open(Source& in) {
   } catch (const std::invalid_argument& bad) {
     in.fail(bad.what());
   }
-  std::vector<std::string> planes{"e", "o", "u"};
-  if (out.info.params.keep_conflict) planes.emplace_back("conflict");
+  std::vector<std::string> planes;
+  for (const Plane& plane : planes_of(out.info.params)) planes.emplace_back(plane.name);
   if (out.info.planes != planes) in.fail("header: 'planes' are not those of its parameters");
   out.info.format_version = version;
   out.info.tiles = out.tail.tiles;
   out.info.file_bytes = in.size();
-  out.info.memory_bytes = out.tail.tiles * TileStore(out.info.params.keep_conflict, 0).tile_bytes();
+  out.info.memory_bytes = out.tail.tiles * planes.size() * sizeof(float) * kernels::kTileSide * kernels::kTileSide;
   return out;
 }
 

@@ -49,8 +49,7 @@ std::string header_of(const Map& map) {
   info.maths_version = kMathsVersion;
   info.params = map.params();
   info.sensors.assign(map.sensors().begin(), map.sensors().end());
-  info.planes = {"e", "o", "u"};
-  if (info.params.keep_conflict) info.planes.emplace_back("conflict");
+  for (const Plane& plane : planes_of(info.params)) info.planes.emplace_back(plane.name);
   const std::int64_t stamp = MapAccess::last_stamp_ns(map);
   if (stamp != std::numeric_limits<std::int64_t>::min()) info.last_stamp_ns = stamp;
   info.hash = map.hash();

@@ -69,7 +69,8 @@ const char* TileDecoder::decode(const TileStore& store, std::span<const std::byt
   bool good = true;
   each_value(store, tile, [&](int plane, float& value, std::size_t at) {
     value = std::bit_cast<float>(number_at<std::uint32_t>(flat_, at));
-    good = good && value >= 0.0f && (plane > 2 || value <= 1.001f);  // rounding may end above 1; false for NaN
+    const Plane& allowed = store.layout().planes[static_cast<std::size_t>(plane)];
+    good = good && value >= allowed.least && value <= allowed.most;  // false for NaN
   });
   return good ? nullptr : "holds a number that is no mass";
 } catch (const std::bad_alloc&) {

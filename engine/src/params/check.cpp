@@ -3,8 +3,10 @@
 // text is what the error says.
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include "evigrid/map.hpp"
+#include "model_rows.hpp"
 #include "params/table.hpp"
 
 namespace evigrid {
@@ -16,8 +18,8 @@ std::string number(double v) {
   return text;
 }
 
-template <class T, std::size_t N>
-void check_rows(const ParamRow<T> (&rows)[N], const T& of, std::vector<ParamError>& errors) {
+template <class T>
+void check_rows(std::span<const ParamRow<T>> rows, const T& of, std::vector<ParamError>& errors) {
   for (const auto& row : rows) {
     const double v = row.get(of);
     if (!(v >= row.least && v <= row.most)) {
@@ -31,24 +33,18 @@ void check_rows(const ParamRow<T> (&rows)[N], const T& of, std::vector<ParamErro
 
 std::vector<ParamError> check(const Sensor& s) {
   std::vector<ParamError> errors;
-  check_rows(kSensorRows, s, errors);
+  check_rows<Sensor>(kSensorRows, s, errors);
   if (s.min_range_m >= s.max_range_m) errors.push_back({"sensor.min_range_m", "must be below max_range_m"});
-  switch (s.model) {
-    case Model::hughes1992:
-      check_rows(kHughesRows, s, errors);
-      break;
-    case Model::li2014:
-      check_rows(kLiRows, s, errors);
-      break;
-    case Model::beam:
-      check_rows(kBeamRows, s, errors);
-      if (s.beam.empty_margin_m < s.beam.occupied_half_width_m) {
-        errors.push_back({"sensor.beam.empty_margin_m", "must be at least occupied_half_width_m"});
-      }
-      if (s.beams * s.beam_step_rad > 6.2831854) {
-        errors.push_back({"sensor.beam_step_rad", "times beams is more than a full circle"});
-      }
-      break;
+  if (s.model == Model::li2006 || s.model == Model::li2014) check_rows<Sensor>(kPositiveRangeRows, s, errors);
+  if (s.model == Model::beam) check_rows<Sensor>(kFanRows, s, errors);
+  check_rows<Sensor>(model_row(s.model).params, s, errors);
+  if (s.model == Model::beam) {
+    if (s.beam.empty_margin_m < s.beam.occupied_half_width_m) {
+      errors.push_back({"sensor.beam.empty_margin_m", "must be at least occupied_half_width_m"});
+    }
+    if (s.beams * s.beam_step_rad > 6.2831854) {
+      errors.push_back({"sensor.beam_step_rad", "times beams is more than a full circle"});
+    }
   }
   if (s.model != Model::beam && s.beams != 1) errors.push_back({"sensor.beams", "must be 1 for a cone"});
   return errors;
@@ -56,12 +52,22 @@ std::vector<ParamError> check(const Sensor& s) {
 
 std::vector<ParamError> check(const MapParams& p) {
   std::vector<ParamError> errors;
-  check_rows(kMapRows, p, errors);
+  check_rows<MapParams>(kMapRows, p, errors);
+  if (!(p.bayes.least_p < p.bayes.most_p)) errors.push_back({"map.bayes.least_p", "must be below most_p"});
+  if (p.keep_con && !p.keep_conflict) errors.push_back({"map.keep_con", "needs keep_conflict"});
+  if (p.keep_last_conflict && !p.keep_conflict) errors.push_back({"map.keep_last_conflict", "needs keep_conflict"});
   if (const auto why = why_not_in_maps(p.rule); !why.empty()) {
     errors.push_back(
         {"map.rule", "cannot be " + std::string(name(p.rule)) + ": " + std::string(why) + "; use it with combine"});
   }
   return errors;
+}
+
+std::vector<ParamError> check_pair(Rule rule, const Sensor& s) {
+  const std::string_view why = why_not_together(rule, s.model);
+  if (why.empty()) return {};
+  return {{"sensor.model",
+           std::string(name(s.model)) + " cannot be fused by " + std::string(name(rule)) + ": " + std::string(why)}};
 }
 
 std::vector<ParamError> check_reach(const Sensor& s, double cell_m) {

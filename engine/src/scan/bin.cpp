@@ -3,46 +3,129 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+
+#include "scan/footprint.hpp"
 
 namespace evigrid {
+namespace {
 
-std::vector<TileWork> bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& table,
-                          TileStore& store) {
-  std::map<TileIndex, std::vector<std::uint32_t>> lists;
-  MicroList micros;
+/// Places of tiles in the batch: of those that exist in the tile itself, of the others in a map.
+class Places {
+ public:
+  Places(TileStore& store, Plan& plan) : store_(store), plan_(plan) {}
+  /// −1 for a tile that neither exists nor has a place.
+  std::int64_t find(TileIndex at) {
+    if (Tile* tile = store_.find(at)) {
+      if (tile->batch != plan_.batch) {
+        tile->batch = plan_.batch;
+        tile->place = add(at, tile);
+      }
+      return tile->place;
+    }
+    const auto it = missing_.find(at);
+    return it == missing_.end() ? std::int64_t{-1} : std::int64_t{it->second};
+  }
+  std::uint32_t find_or_add(TileIndex at) {
+    const std::int64_t place = find(at);
+    if (place >= 0) return static_cast<std::uint32_t>(place);
+    return missing_[at] = add(at, nullptr);
+  }
+  void make_missing() {
+    store_.reserve(missing_.size());
+    for (const auto& [at, place] : missing_) plan_.tiles[place].tile = &store_.get_or_make(at);
+  }
+
+ private:
+  std::uint32_t add(TileIndex at, Tile* tile) {
+    TileWork w;
+    w.at = at;
+    w.tile = tile;
+    plan_.tiles.push_back(w);
+    return static_cast<std::uint32_t>(plan_.tiles.size() - 1);
+  }
+  TileStore& store_;
+  Plan& plan_;
+  std::map<TileIndex, std::uint32_t> missing_;
+};
+
+/// Tiles in row-major order, cut where the readings of their tiles add up to equal shares. A fan is fused tile by tile,
+/// so a region of one tile keeps that tile at hand for all its fans; cones are fused over many tiles at once.
+void share_out(Plan& p, int threads, bool fans) {
+  constexpr std::uint32_t kPerThread = 4;
+  const auto tiles = static_cast<std::uint32_t>(p.tiles.size()),
+             most = fans          ? tiles
+                    : threads > 1 ? kPerThread * static_cast<std::uint32_t>(threads)
+                                  : 1,
+             regions = std::min(tiles, most);
+  p.region_begin.assign(regions + 1, 0);
+  if (regions <= 1) {
+    if (regions == 1) p.region_begin[1] = static_cast<std::uint32_t>(p.unsorted.size());
+    p.reaches.swap(p.unsorted);
+    return;
+  }
+  p.order.resize(tiles);
+  std::iota(p.order.begin(), p.order.end(), 0u);
+  std::sort(p.order.begin(), p.order.end(), [&](auto a, auto b) { return p.tiles[a].at < p.tiles[b].at; });
+  const std::uint64_t all = p.unsorted.size();
+  std::uint64_t before = 0;
+  std::uint32_t place = 0;
+  for (const std::uint32_t i : p.order) {
+    TileWork& w = p.tiles[i];
+    w.region = fans ? place++ : static_cast<std::uint32_t>((2 * before + w.readings) * regions / (2 * all));
+    before += w.readings;
+    p.region_begin[w.region + 1] += w.readings;
+  }
+  std::partial_sum(p.region_begin.begin(), p.region_begin.end(), p.region_begin.begin());
+  p.order.assign(p.region_begin.begin(), p.region_begin.end() - 1);
+  p.reaches.resize(p.unsorted.size());
+  for (const Reach& r : p.unsorted) p.reaches[p.order[p.tiles[r.tile].region]++] = r;
+}
+
+}  // namespace
+
+void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& table, TileStore& store, int threads,
+         Plan& plan) {
+  ++plan.batch;
+  plan.tiles.clear();
+  plan.unsorted.clear();
+  plan.cones.clear();
+  plan.cone.resize(footprints.size());
+  Places places(store, plan);
   kernels::FanMicros fan_micros;
+  bool fans = false;
   for (std::uint32_t i = 0; i < footprints.size(); ++i) {
     const Footprint& f = footprints[i];
-    const CellBox box = footprint_box(f);
+    const auto reach = [&](std::uint32_t place) {
+      ++plan.tiles[place].readings;
+      plan.unsorted.push_back({i, place});
+    };
+    if (!f.fan) {
+      plan.cone[i] = plan.cones.find(table, f.cone);
+      plan.cones.each_tile(plan.cone[i], [&](TileIndex at) { reach(places.find_or_add(at)); });
+      continue;
+    }
+    fans = true;
+    const CellBox box = fan_box(*f.fan);
     const TileIndex first = tile_of(box.x0, box.y0), last = tile_of(box.x1, box.y1);
     for (std::int64_t y = first.y; y <= last.y; ++y) {
       for (std::int64_t x = first.x; x <= last.x; ++x) {
         const TileIndex at{y, x};
-        auto list = lists.find(at);
-        if (list == lists.end()) {
-          // A new tile costs memory: look closer before making one.
-          if (f.fan) {
-            const auto& q = f.fan->reading;
-            table.select_fan(q, static_cast<float>(offset(x, q.i0, q.fx)), static_cast<float>(offset(y, q.j0, q.fy)),
-                             fan_micros);
-            micros.count = fan_micros.empty_count + fan_micros.edge_count;
-          } else {
-            select_micros(f.cone, offset(x, f.cone.i0, f.cone.fx), offset(y, f.cone.j0, f.cone.fy), micros);
-          }
-          if (micros.count == 0) continue;
-          list = lists.try_emplace(at).first;
+        const std::int64_t place = places.find(at);
+        if (place >= 0) {
+          reach(static_cast<std::uint32_t>(place));
+          continue;
         }
-        list->second.push_back(i);
+        // A new tile costs memory: look closer before making one.
+        const auto& q = f.fan->reading;
+        table.select_fan(q, static_cast<float>(offset(x, q.i0, q.fx)), static_cast<float>(offset(y, q.j0, q.fy)),
+                         fan_micros);
+        if (fan_micros.empty_count + fan_micros.edge_count > 0) reach(places.find_or_add(at));
       }
     }
   }
-  std::size_t missing = 0;
-  for (const auto& [at, list] : lists) missing += store.find(at) == nullptr ? 1 : 0;
-  store.reserve(missing);
-  std::vector<TileWork> work;
-  work.reserve(lists.size());
-  for (auto& [at, list] : lists) work.push_back({&store.get_or_make(at), std::move(list)});
-  return work;
+  places.make_missing();
+  share_out(plan, threads, fans);
 }
 
 }  // namespace evigrid

@@ -1,22 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binning: which readings each tile has to fuse, in their order.
+// Binning: which readings reach which tiles, and which tiles one task fuses. A region is some tiles that lie together;
+// within it readings come in their order, so every cell meets them in order, whoever runs the region.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "grid/tile_store.hpp"
 #include "scan/compiled.hpp"
-#include "scan/footprint.hpp"
+#include "scan/cone_list.hpp"
 
 namespace evigrid {
 
-struct TileWork {
-  Tile* tile;
-  std::vector<std::uint32_t> footprints;  // ascending: the order of fusion
+/// A reading that may touch a tile.
+struct Reach {
+  std::uint32_t footprint, tile;  // places in the batch
 };
 
-/// Creates missing tiles (std::length_error at the memory cap, before any cell is
-/// changed). Sorted by tile, so that the schedule does not depend on a hash.
-std::vector<TileWork> bin(const std::vector<Footprint>&, const kernels::KernelTable&, TileStore&);
+struct TileWork {
+  TileIndex at;
+  Tile* tile = nullptr;
+  std::uint32_t readings = 0, region = 0;
+  BlockMask reached = 0;  // by the batch's readings, and whether any may have changed a cell: its region's task says
+  bool touched = false;
+};
+
+struct Plan {
+  std::vector<TileWork> tiles;
+  std::vector<Reach> reaches;               // region by region, in each by footprint
+  std::vector<std::uint32_t> region_begin;  // places in reaches; one more than regions
+  [[nodiscard]] std::size_t regions() const noexcept { return region_begin.size() - 1; }
+  [[nodiscard]] std::span<const Reach> region(std::size_t i) const noexcept {
+    return std::span(reaches).subspan(region_begin[i], region_begin[i + 1] - region_begin[i]);
+  }
+
+  ConeFootprints cones;
+  std::vector<ConeFootprint> cone;  // by footprint; of fans: empty
+
+  // Kept for their memory.
+  std::vector<std::uint32_t> order;
+  std::vector<Reach> unsorted;
+  std::uint64_t batch = 0;
+};
+
+/// Creates missing tiles (std::length_error at the memory cap, before any cell is changed).
+void bin(const std::vector<Footprint>&, const kernels::KernelTable&, TileStore&, int threads, Plan&);
 
 }  // namespace evigrid

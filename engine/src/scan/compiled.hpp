@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "evigrid/scan.hpp"
-#include "kernels/row/compile_reading.hpp"
+#include "kernels/row/kernel_table.hpp"
 
 namespace evigrid {
 
@@ -31,6 +31,6 @@ struct Footprint {
 };
 
 /// The second half of the gate, which takes the time: each footprint by itself, in any order.
-void compile(Footprint&);
+void compile(Footprint&, const kernels::KernelTable&);
 
 }  // namespace evigrid

@@ -1,26 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/gate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "model_rows.hpp"
+#include "scan/false_reflection.hpp"
 
 namespace evigrid {
 
 kernels::ConeSpec cone_spec(const Sensor& s, double cell_m) {
-  return {s.model == Model::li2014 ? 1 : 0,
-          cell_m,
-          s.aperture_rad,
-          s.min_range_m,
-          s.max_range_m,
-          s.reliability,
-          s.hughes.r_max_m,
-          s.hughes.max_occupied,
-          s.hughes.tolerance_m,
-          s.li.rho_e,
-          s.li.rho_o,
-          s.li.rho_c,
-          s.li.rho_i,
-          s.li.epsilon_ratio};
+  kernels::ConeSpec spec{model_row(s.model).cone,
+                         cell_m,
+                         s.aperture_rad,
+                         s.min_range_m,
+                         s.max_range_m,
+                         s.reliability,
+                         s.hughes.r_max_m,
+                         s.hughes.max_occupied,
+                         s.hughes.tolerance_m,
+                         s.li.rho_e,
+                         s.li.rho_o,
+                         s.li.rho_c,
+                         s.li.rho_i,
+                         s.li.epsilon_ratio,
+                         s.reliability_if_empty,
+                         s.reliability_if_occupied};
+  spec.li2006_rho_v = s.li2006.rho_v;
+  spec.li2006_epsilon_m = s.li2006.epsilon_m;
+  spec.discount_by_lambda = s.li2006.discount_by_lambda;
+  spec.moravec_epsilon_m = s.moravec.epsilon_m;
+  switch (s.model) {  // these three share their constants
+    case Model::probability:
+      spec.width_m = s.probability.epsilon_m, spec.rho_v_m = s.probability.rho_v_m;
+      break;
+    case Model::fuzzy:
+      spec.width_m = s.fuzzy.epsilon_m, spec.rho_v_m = s.fuzzy.rho_v_m, spec.as_printed = s.fuzzy.as_printed;
+      spec.k_empty = s.fuzzy.k_empty, spec.k_occupied = s.fuzzy.k_occupied;
+      break;
+    default:
+      spec.width_m = s.oriolo.delta_m, spec.rho_v_m = s.oriolo.rho_v_m;
+      spec.k_empty = s.oriolo.k_empty, spec.k_occupied = s.oriolo.k_occupied;
+  }
+  return spec;
 }
 
 kernels::FanSpec fan_spec(const Sensor& s, double cell_m) {
@@ -34,7 +57,9 @@ kernels::FanSpec fan_spec(const Sensor& s, double cell_m) {
           s.beam.empty,
           s.beam.occupied,
           s.beam.empty_margin_m,
-          s.beam.occupied_half_width_m};
+          s.beam.occupied_half_width_m,
+          s.reliability_if_empty,
+          s.reliability_if_occupied};
 }
 
 CompiledSensor::CompiledSensor(const Sensor& s, double cell_m)
@@ -92,10 +117,27 @@ void gate_fan(const Reading& reading, const CompiledSensor& c, const kernels::Se
   out.push_back(std::move(f));
 }
 
+/// What the filter compares: the range of each reading of a cone, NaN where the gate would refuse it anyway.
+std::vector<RingReading> ring_of(const Scan& scan, const std::vector<CompiledSensor>& sensors) {
+  std::vector<RingReading> ring;
+  for (std::size_t i = 0; i < scan.readings.size(); ++i) {
+    const Reading& r = scan.readings[i];
+    if (r.sensor >= sensors.size() || r.ranges_m.size() != 1) continue;
+    const Sensor& s = sensors[r.sensor].sensor;
+    if (s.model == Model::beam) continue;
+    const float range = r.ranges_m[0];
+    ring.push_back({i, s.T_robot_sensor.yaw_rad, refuse(s, range) ? std::nanf("") : range});
+  }
+  return ring;
+}
+
 }  // namespace
 
-void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, double cell_m, std::vector<Footprint>& out,
-               Report& report) {
+void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, const MapParams& params,
+               std::vector<Footprint>& out, Report& report) {
+  const double cell_m = params.cell_m;
+  std::vector<std::size_t> dropped;
+  if (params.false_reflection_m >= 0) dropped = false_reflections(ring_of(scan, sensors), params.false_reflection_m);
   for (const Reading& reading : scan.readings) {
     if (reading.sensor >= sensors.size()) {
       count(report, Refusal::unknown_sensor);
@@ -122,6 +164,10 @@ void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, dou
       count(report, *why);
       continue;
     }
+    if (std::binary_search(dropped.begin(), dropped.end(), static_cast<std::size_t>(&reading - scan.readings.data()))) {
+      count(report, Refusal::false_reflection);
+      continue;
+    }
     ++report.readings_used;
     Footprint f;
     f.sensor = &c;
@@ -132,9 +178,9 @@ void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, dou
   }
 }
 
-void compile(Footprint& f) {
+void compile(Footprint& f, const kernels::KernelTable& table) {
   if (f.fan) {
-    kernels::compile_fan(std::get<kernels::FanType>(f.sensor->type), f.pose, *f.fan);
+    table.compile_fan(std::get<kernels::FanType>(f.sensor->type), f.pose, *f.fan);
   } else {
     f.cone = kernels::compile_cone(std::get<kernels::ConeType>(f.sensor->type), f.pose, f.range_m);
   }

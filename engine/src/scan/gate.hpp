@@ -3,11 +3,12 @@
 #pragma once
 #include <vector>
 
+#include "evigrid/map.hpp"
 #include "scan/compiled.hpp"
 
 namespace evigrid {
 
 /// Appends the footprints of one scan, in the order of its readings, and counts the rest in the report.
-void gate_scan(const Scan&, const std::vector<CompiledSensor>&, double cell_m, std::vector<Footprint>& out, Report&);
+void gate_scan(const Scan&, const std::vector<CompiledSensor>&, const MapParams&, std::vector<Footprint>& out, Report&);
 
 }  // namespace evigrid

@@ -11,13 +11,21 @@
 
 namespace evigrid::raycast {
 
+/// How the surfaces of the world are found for cones. Both give the same answers, bit for bit: an index proposes, the
+/// exact code decides. Rays and the surfaces of movers always go by Embree's hierarchies or short lists.
+enum class Index {
+  automatic,  ///< buckets, unless most of the walls crowd in few of them
+  embree,     ///< Embree's hierarchy of boxes and its point query
+  buckets     ///< a grid of buckets, many surfaces clipped at once; a cone over more than 4096 of them goes by Embree
+};
+
 class Scene {
  public:
   /// `movers`: shapes of moving objects, each in a frame of its own; where they stand is said at every cast, so that
   /// nothing is rebuilt when they move. Throws std::invalid_argument for a non-finite coordinate, a negative size, a
   /// critical incidence outside [0, π/2] or an absorption outside [0, 1); std::runtime_error when the ray caster cannot
   /// be set up.
-  explicit Scene(const World& world, std::span<const World> movers = {});
+  explicit Scene(const World& world, std::span<const World> movers = {}, Index index = Index::automatic);
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
@@ -30,8 +38,9 @@ class Scene {
   [[nodiscard]] Echo cast_cone(const ConeQuery& query, Placements movers = {}) const;
 
   /// The same for many cones (thousands of poses): echoes[i] answers queries[i]; equal to one call each, bit for bit.
-  /// `threads`: 0 for as many as the machine has, and never more; on a TBB arena of its own. Throws before any echo is
-  /// written when one of the queries is bad.
+  /// Fastest when cones that start near one another, like those of a ring, follow one another: what is around them is
+  /// gathered once. `threads`: 0 for as many as the machine has, and never more; on a TBB arena of its own. Throws
+  /// before any echo is written when one of the queries is bad.
   void cast_cones(std::span<const ConeQuery> queries, std::span<Echo> echoes, Placements movers = {},
                   int threads = 1) const;
 
@@ -62,6 +71,9 @@ class Scene {
   /// Many fans, one after the other in ranges_m (total of their beams). `threads` as for cast_cones.
   void cast_fans(std::span<const FanQuery> queries, std::span<double> ranges_m, Placements movers = {},
                  int threads = 1) const;
+
+  /// What cones go by: embree or buckets.
+  [[nodiscard]] Index index() const noexcept;
 
   /// Straight pieces and circles after taking boxes and polygons apart, movers included.
   [[nodiscard]] std::size_t surface_count() const noexcept;

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -28,11 +29,16 @@ struct Pose {
 struct MapSpec {
   double cell_m = 0.05;
   std::string rule;
+  double false_reflection_m = -1;  ///< tolerance of the filter of false reflections; below 0: none
 };
 
+/// Parameters by name, of each model that the scene gives some for.
+using ModelParameters = std::map<std::string, std::map<std::string, double>>;
+
 struct SonarSpec {
-  Pose T_robot_sensor;      ///< the cone looks along its x axis
-  std::string model;        ///< name of the inverse sensor model
+  Pose T_robot_sensor;  ///< the cone looks along its x axis
+  std::string model;    ///< name of the inverse sensor model
+  ModelParameters parameters;
   double aperture_rad = 0;  ///< full opening
   double min_range_m = 0, max_range_m = 0;
   double reliability = 1;     ///< in (0, 1]
@@ -44,6 +50,7 @@ struct SonarSpec {
 struct LaserSpec {
   Pose T_robot_sensor;
   std::string model = "beam";
+  ModelParameters parameters;
   double first_rad = 0, step_rad = 0;
   int beams = 0;
   double min_range_m = 0, max_range_m = 0;
@@ -121,7 +128,13 @@ struct SceneLimits {
 /// The names of rules and models that exist, which only the user of the library knows: others are refused with their
 /// line. An empty list lets every name pass.
 struct Vocabulary {
+  struct Parameter {
+    std::string model, name;
+    double least = 0, most = 0;
+    bool is_switch = false;  ///< true or false
+  };
   std::vector<std::string> rules, sonar_models, laser_models;
+  std::vector<Parameter> parameters;  ///< of models: a table [robot.sensor.MODEL] may name them
 };
 
 /// Throws SceneError.

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The planes of a map's cells: those of its rule's state, then the history that the map keeps.
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "evigrid/map.hpp"
+#include "kernels/row/kernel_table.hpp"
+
+namespace evigrid {
+
+struct Plane {
+  std::string_view name;  // in files
+  float vacuous;          // what a cell holds of which nothing was ever said
+  float least, most;      // what a file may hold
+};
+
+struct CellLayout {
+  std::vector<Plane> planes;
+  int paradox = -1, conflict = -1, con = -1, last_conflict = -1;  // which plane; −1 is none
+  bool planes_are_masses = true;                                  // the first three are e, o, u as they are read
+  void (*read_out)(const float* cells, int planes, int micros, float* out) = nullptr;
+};
+CellLayout cell_layout(const MapParams&, const kernels::KernelTable&);
+/// Names alone, also of files whose kernel cannot run here.
+std::vector<Plane> planes_of(const MapParams&);
+/// States that are sums take a reading back exactly.
+bool state_is_sum(Rule) noexcept;
+
+}  // namespace evigrid

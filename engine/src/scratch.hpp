@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What integrate() works in: kept by the map from call to call for its memory, never for its contents.
+#pragma once
+#include <vector>
+
+#include "scan/bin.hpp"
+
+namespace evigrid {
+
+/// A cone whose micro-tiles are listed, not yet fused.
+struct PendingCone {
+  const Footprint* footprint;
+  ConeList::Marks from, to;
+};
+
+/// One worker's.
+struct RegionScratch {
+  ConeList list;
+  std::vector<PendingCone> pending;
+  kernels::FanMicros fan_micros;
+};
+
+struct Scratch {
+  std::vector<Footprint> footprints;
+  Plan plan;
+  std::vector<kernels::Stats> stats;  // a region
+  std::vector<RegionScratch> workers;
+};
+
+}  // namespace evigrid

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// On which side of a cone's two edges a cell centre lies: the products with the edges' normals, exact up to one
+// rounding, at three additions an edge. A product is that of the micro-tile's first cell, computed in double once for
+// the whole micro-tile, plus what the cell's place in it adds, which is the same for every micro-tile of a cone. Both
+// are split at 2^-20. On the lattice of docs/maths.md both low parts and their sum are exact, and so is the sum of the
+// high parts below 8 cells: only the last addition rounds, so the sign is right and a tie is exactly zero. Farther away
+// the first cell's high part is rounded too: 2^-24 of a product that is nowhere near zero.
+#pragma once
+#include "kernels/row/kernel_table.hpp"
+
+EVIGRID_CELL_BEGIN
+
+inline void split_product(double n, float& high, float& low) {
+  constexpr double kMagic = 6442450944.0;  // 1.5 · 2^32: its last place is 2^-20
+  const double h = (n + kMagic) - kMagic;
+  high = static_cast<float>(h);
+  low = static_cast<float>(n - h);
+}
+
+/// What the sixteen cells of a micro-tile add to its first one.
+struct ConeLanes {
+  alignas(64) float column[kMicroCells], row[kMicroCells];
+  alignas(64) float column_twice[kMicroCells], row_twice[kMicroCells], square[kMicroCells];
+  alignas(64) float left_high[kMicroCells], left_low[kMicroCells], right_high[kMicroCells], right_low[kMicroCells];
+
+  explicit ConeLanes(const ConeReading& q) {
+    for (int i = 0; i < kMicroCells; ++i) {
+      const int x = i & 3, y = i >> 2;
+      column[i] = static_cast<float>(x);
+      row[i] = static_cast<float>(y);
+      column_twice[i] = static_cast<float>(2 * x);
+      row_twice[i] = static_cast<float>(2 * y);
+      square[i] = static_cast<float>(x * x + y * y);
+      split_product(static_cast<double>(q.ly) * x - static_cast<double>(q.lx) * y, left_high[i], left_low[i]);
+      split_product(static_cast<double>(q.rx) * y - static_cast<double>(q.ry) * x, right_high[i], right_low[i]);
+    }
+  }
+};
+
+/// The products of the first cells of some micro-tiles; what is missing in the last step lies outside.
+struct FirstCells {
+  static constexpr int kMost = 64;
+  alignas(64) float left_high[kMost], left_low[kMost], right_high[kMost], right_low[kMost];
+  alignas(64) float excess[kMost];  // d² − T² of the model's own ring
+
+  template <bool kExcess>
+  void fill(const ConeReading& q, const float* x, const float* y, int count) {
+    const double lx = q.lx, ly = q.ly, rx = q.rx, ry = q.ry;
+    const double ring = static_cast<double>(q.ring[kEdge].hi) + static_cast<double>(q.ring[kEdge].lo);
+    for (int i = 0; i < count; ++i) {
+      const double dx = x[i], dy = y[i];
+      split_product(ly * dx - lx * dy, left_high[i], left_low[i]);
+      split_product(rx * dy - ry * dx, right_high[i], right_low[i]);
+      if constexpr (kExcess) excess[i] = static_cast<float>(dx * dx + dy * dy - ring);
+    }
+    for (int i = count; i % Lanes::kMicros != 0; ++i) {
+      left_high[i] = right_high[i] = -1e6f;
+      left_low[i] = right_low[i] = excess[i] = 0;
+    }
+  }
+};
+
+EVIGRID_CELL_END

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capsules.hpp"
+// The target is set for this file's own functions only (pragma, not a compiler flag).
+#include "hwy/detect_targets.h"
+#undef HWY_TARGET
+#define HWY_TARGET HWY_AVX3
+#define EVIGRID_TARGET_NAMESPACE avx512
+#include "capsules_kernel.hpp"
+
+namespace evigrid::raycast {
+const CapsuleKernel& avx512_capsule_kernel() {
+  static const CapsuleKernel kernel{"avx512", avx512::capsules, avx512::squares};
+  return kernel;
+}
+}  // namespace evigrid::raycast
