@@ -11,6 +11,7 @@
 
 #include "error.hpp"
 #include "evigrid/scenes/fleet.hpp"
+#include "evigrid/scenes/simulate.hpp"
 #include "options.hpp"
 #include "paper/plot.hpp"
 #include "paper/robot_map.hpp"
@@ -199,8 +200,8 @@ Canvas panels(const Map& map, const Run& run, const std::string& title, const st
 
 std::string metres(double m) { return fmt::format("{:.2f} m", m); }
 
-Series ends(const char* name, const std::vector<Run>& runs) {
-  Series s{name, {}, false};
+PlotSeries ends(const char* name, const std::vector<Run>& runs) {
+  PlotSeries s{name, {}, false};
   for (const Run& r : runs) s.points.emplace_back(r.end().x_m, r.end().y_m);
   return s;
 }

@@ -29,9 +29,9 @@ struct PaperFile {
 
 struct PaperResult {
   Page page;
-  std::vector<Finding> findings;
+  std::vector<Finding> findings{};
   nlohmann::ordered_json details{};  ///< further numbers for report.json
-  std::vector<PaperFile> files;      ///< pictures and tables beside the page
+  std::vector<PaperFile> files{};    ///< pictures and tables beside the page
 };
 
 struct Paper {

@@ -37,9 +37,9 @@ std::vector<double> ticks(double low, double high, int wanted) {
   return out;
 }
 
-std::string svg_plot(const PlotText& text, const std::vector<Series>& series, bool zero) {
+std::string svg_plot(const PlotText& text, const std::vector<PlotSeries>& series, bool zero) {
   Range x, y;
-  for (const Series& s : series) {
+  for (const PlotSeries& s : series) {
     for (const auto& [px, py] : s.points) {
       if (std::isfinite(px) && std::isfinite(py)) x.add(px), y.add(py);
     }
@@ -74,7 +74,7 @@ std::string svg_plot(const PlotText& text, const std::vector<Series>& series, bo
       (kTop + kHeight - kBottom) / 2, escaped(text.y));
   double legend_x = kLeft + 8;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const Series& s = series[i];
+    const PlotSeries& s = series[i];
     const char* colour = kColours[i % kColours.size()];
     std::string way;
     bool pen_up = true;
