@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// `evigrid paper`: the page and its parts, the command on its shortened run, and what it refuses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "paper/page.hpp"
+#include "paper/plot.hpp"
+#include "program.hpp"
+#include "temp_dir.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+TEST(Page, Base64OfEveryRest) {  // RFC 4648, section 10
+  const auto encoded = [](std::string_view text) { return base64(std::as_bytes(std::span(text.data(), text.size()))); };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}
+
+TEST(Page, TextCannotBecomeMarkup) {
+  Page page("a < b", "x & y");
+  page.findings({{"<script>", "\"1\"", "2", Aim::target, false, "so", {}}});
+  const std::string html = page.html();
+  EXPECT_EQ(html.find("<script>"), std::string::npos);
+  EXPECT_NE(html.find("&lt;script&gt;"), std::string::npos);
+  EXPECT_NE(html.find("a &lt; b"), std::string::npos);
+  EXPECT_NE(html.find("not met"), std::string::npos);
+}
+
+TEST(Plot, TicksAreRoundAndInside) {
+  EXPECT_EQ(ticks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(ticks(-0.3, 0.3, 4).size(), 3u);
+  EXPECT_NEAR(ticks(-0.3, 0.3, 4)[2], 0.2, 1e-12);
+  const std::string svg = svg_plot({"t", "x", "y"}, {{"one", {{0, 1}, {1, NAN}, {2, 3}}}});
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(Paper, Hughes1992ReportsEachPublishedFigureBesideOurs) {
+  TempDir dir;
+  const auto run = [&](const char* out, const char* threads) {
+    const Ran ran = evigrid({"paper", "hughes1992", "--quick", "-o", dir.at(out), "--threads", threads});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return nlohmann::json::parse(slurp(dir.at(std::string(out) + "/report.json")));
+  };
+  const auto one = run("one", "1"), two = run("two", "2");
+  EXPECT_EQ(one["findings"], two["findings"]);  // whatever the threads
+  ASSERT_EQ(one["findings"].size(), 6u);
+  for (const auto& f : one["findings"]) {
+    EXPECT_FALSE(f["published"].get<std::string>().empty());
+    EXPECT_FALSE(f["obtained"].get<std::string>().empty());
+    EXPECT_EQ(f.contains("met"), f["aim"] == "target");
+  }
+  EXPECT_LE(one["findings"][2]["value"].get<int>(), 5);  // moves of a run, as published
+  const std::string html = slurp(dir.at("one/report.html"));
+  EXPECT_NE(html.find("data:image/png;base64,"), std::string::npos);
+  EXPECT_EQ(html.find("http://www.w3.org/2000/svg"), html.find("http"));  // nothing is fetched from anywhere
+  EXPECT_GT(slurp(dir.at("one/run1_move0.png")).size(), 1000u);
+}
+
+TEST(Paper, UnknownPapersAreRefusedByName) {
+  TempDir dir;
+  const Ran ran = evigrid({"paper", "asimov1942", "-o", dir.at("out")});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("'asimov1942' is unknown; known: hughes1992"), std::string::npos) << ran.err;
+}
+
+}  // namespace
+}  // namespace evigrid::driver
