@@ -12,9 +12,18 @@ constexpr Rgb kFrame{190, 190, 190};
 constexpr Rgb kFree{250, 250, 247}, kWall{14, 22, 56}, kSolid{205, 205, 205}, kNothing{158, 158, 158};
 constexpr int kGap_px = 18, kTitle_px = 22, kSheetLine_px = 14, kSheetHead_px = 44;
 
-/// colour(x, y) of a cell and its rank: of the cells under one pixel the one with the highest rank is shown.
-template <class Cell>
-Thumbnail reduce(const SheetScale& s, Cell cell) {
+}  // namespace
+
+SheetScale sheet_scale(const CellRect& rect, int panel_px) {
+  SheetScale s;
+  s.rect = rect;
+  const std::int64_t longest = std::max<std::int64_t>({rect.width, rect.height, 1});
+  s.cells_per_px = static_cast<int>((longest + panel_px - 1) / panel_px);
+  s.px_per_cell = s.cells_per_px > 1 ? 1 : static_cast<int>(std::max<std::int64_t>(panel_px / longest, 1));
+  return s;
+}
+
+Thumbnail thumbnail_of(const SheetScale& s, const CellPainter& cell) {
   Thumbnail out;
   const auto reduced = [&](std::int64_t cells) {
     return static_cast<int>((cells + s.cells_per_px - 1) / s.cells_per_px) * s.px_per_cell;
@@ -41,20 +50,9 @@ Thumbnail reduce(const SheetScale& s, Cell cell) {
   return out;
 }
 
-}  // namespace
-
-SheetScale sheet_scale(const CellRect& rect, int panel_px) {
-  SheetScale s;
-  s.rect = rect;
-  const std::int64_t longest = std::max<std::int64_t>({rect.width, rect.height, 1});
-  s.cells_per_px = static_cast<int>((longest + panel_px - 1) / panel_px);
-  s.px_per_cell = s.cells_per_px > 1 ? 1 : static_cast<int>(std::max<std::int64_t>(panel_px / longest, 1));
-  return s;
-}
-
 Thumbnail thumbnail(const Layers& map, const SheetScale& scale) {
   const CellRect& r = map.rect;
-  return reduce(scale, [&](std::int64_t x, std::int64_t y) -> std::pair<float, Rgb> {
+  return thumbnail_of(scale, [&](std::int64_t x, std::int64_t y) -> std::pair<float, Rgb> {
     x -= r.x, y -= r.y;
     if (x < 0 || y < 0 || x >= r.width || y >= r.height) return {-0.5F, kNothing};
     const auto i = static_cast<std::size_t>(y * r.width + x);
@@ -63,7 +61,7 @@ Thumbnail thumbnail(const Layers& map, const SheetScale& scale) {
 }
 
 Thumbnail thumbnail(const scenes::TruthGrid& truth, const SheetScale& scale) {
-  return reduce(scale, [&](std::int64_t x, std::int64_t y) -> std::pair<float, Rgb> {
+  return thumbnail_of(scale, [&](std::int64_t x, std::int64_t y) -> std::pair<float, Rgb> {
     if (x < truth.x || y < truth.y || x >= truth.x + truth.width || y >= truth.y + truth.height) return {0, kSolid};
     switch (truth.at(x, y)) {
       case scenes::TruthCell::surface:

@@ -2,7 +2,9 @@
 // A contact sheet: maps of one place side by side at one scale, the true world first where it is known, each with its
 // name and a few figures under it.
 #pragma once
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "evigrid/scenes/truth.hpp"
@@ -29,6 +31,10 @@ struct SheetScale {
   int cells_per_px = 1, px_per_cell = 1;  ///< one of them is 1
 };
 [[nodiscard]] SheetScale sheet_scale(const CellRect& rect, int panel_px);
+
+/// Rank and colour of the cell (x, y): of the cells under one pixel the one with the highest rank is shown.
+using CellPainter = std::function<std::pair<float, Rgb>(std::int64_t x, std::int64_t y)>;
+[[nodiscard]] Thumbnail thumbnail_of(const SheetScale& scale, const CellPainter& cell);
 
 /// A pixel of several cells shows its most occupied cell, so that thin walls stay.
 [[nodiscard]] Thumbnail thumbnail(const Layers& map, const SheetScale& scale);
