@@ -2,8 +2,6 @@
 // evigrid paper NAME|all -o DIR: the behaviours of a paper, its published figures beside ours, as a page and as JSON.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
 
 #include "commands.hpp"
@@ -11,6 +9,7 @@
 #include "evigrid/version.hpp"
 #include "mapping.hpp"
 #include "out/out_dir.hpp"
+#include "paper/index.hpp"
 #include "paper/paper.hpp"
 
 namespace evigrid::driver {
@@ -28,49 +27,70 @@ std::string paper_names() {
   return out;
 }
 
-void run_one(const Paper& paper, const PaperOptions& options, const std::string& dir) {
+PaperRun run_one(const Paper& paper, const PaperOptions& options, const std::string& dir) {
   OutDir out(dir);
   const auto start = Clock::now();
-  const PaperResult result = paper.run(options);
-  nlohmann::ordered_json report{{"paper", paper.name}, {"title", paper.title}, {"version", EVIGRID_VERSION},
-                                {"quick", options.quick}, {"findings", to_json(result.findings)}};
+  PaperResult result = paper.run(options);
+  nlohmann::ordered_json report{{"paper", paper.name},
+                                {"title", paper.title},
+                                {"version", EVIGRID_VERSION},
+                                {"quick", options.quick},
+                                {"findings", to_json(result.findings)}};
+  if (!options.world.empty()) report["world"] = options.world;
   if (!result.details.is_null()) report["details"] = result.details;
-  report["wall_s"] = seconds_since(start);
+  const double wall_s = seconds_since(start);
+  report["wall_s"] = wall_s;
   for (const PaperFile& file : result.files) out.write(file.name, file.bytes, {});
   out.write("report.html", result.page.html());
-  out.write("report.json", report.dump(2) + "\n");
+  out.write("report.json", report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   out.commit();
-  const auto is = [](bool met) {
-    return [met](const Finding& f) { return f.aim == Aim::target && f.met == met; };
-  };
-  const auto met = std::count_if(result.findings.begin(), result.findings.end(), is(true));
-  const auto missed = std::count_if(result.findings.begin(), result.findings.end(), is(false));
-  fmt::print("{}: {} of {} published outcomes met, {} figures reported; {}/report.html\n", paper.name, met,
-             met + missed, static_cast<std::int64_t>(result.findings.size()) - met - missed, dir);
+  const Tally t = tally(result.findings);
+  fmt::print("{}: {} of {} published outcomes met, {} of {} floors held, {} figures reported; {}/report.html\n",
+             paper.name, t.met, t.met + t.missed, t.floors - t.below, t.floors, t.others, dir);
   for (const Finding& f : result.findings) {
-    if (is(false)(f)) fmt::print("  not met: {}: published {}, ours {}\n", f.name, f.published, f.ours);
+    if (asks(f.aim) && !f.met) fmt::print("  not met: {}: {}, ours {}\n", f.name, f.published, f.ours);
   }
+  std::cout.flush();
+  return {&paper, std::move(result.findings), wall_s};
+}
+
+std::string takes_no_world(const Paper& paper) {
+  return fmt::format("{} needs its own room and takes no other", paper.name);
+}
+
+void run_all(const Args& args) {
+  OutDir out(args.out_dir);
+  std::vector<PaperRun> runs;
+  std::vector<std::string> skipped;
+  for (const Paper& p : papers()) {
+    if (!args.options.world.empty() && !p.takes_world) {
+      skipped.push_back(takes_no_world(p));
+      fmt::print("{}: left out with --world\n", skipped.back());
+      continue;
+    }
+    runs.push_back(run_one(p, args.options, args.out_dir + "/" + std::string(p.name)));
+  }
+  out.write("index.html", index_page(runs, skipped));
+  out.write("index.json", index_json(runs, skipped).dump(2) + "\n");
+  out.commit();
+  fmt::print("{}/index.html\n", args.out_dir);
 }
 
 void run_papers(Args args) {
   if (args.seed < 0) throw InputError(fmt::format("--seed: {} is below 0", args.seed));
   args.options.seed = static_cast<std::uint64_t>(args.seed);
-  std::vector<const Paper*> wanted;
+  for (const auto& [given, name] :
+       {std::pair{!args.options.start.empty(), "--start"}, {args.options.resolution_m.has_value(), "--resolution"}}) {
+    if (given && args.options.world.empty()) throw InputError(fmt::format("{}: is for --world", name));
+  }
+  if (args.name == "all") return run_all(args);
   for (const Paper& p : papers()) {
-    if (args.name == "all" || args.name == p.name) wanted.push_back(&p);
+    if (args.name != p.name) continue;
+    if (!args.options.world.empty() && !p.takes_world) throw InputError("--world: " + takes_no_world(p));
+    run_one(p, args.options, args.out_dir);
+    return;
   }
-  if (wanted.empty()) {
-    throw InputError(fmt::format("paper '{}' is unknown; known: {}, all", args.name, paper_names()));
-  }
-  for (const Paper* p : wanted) {
-    if (!args.options.world.empty() && !p->takes_world) {
-      throw InputError(fmt::format("--world: {} is a comparison in its own room and takes no other", p->name));
-    }
-  }
-  for (const Paper* p : wanted) {
-    run_one(*p, args.options, args.name == "all" ? args.out_dir + "/" + std::string(p->name) : args.out_dir);
-    std::cout.flush();
-  }
+  throw InputError(fmt::format("paper '{}' is unknown; known: {}, all", args.name, paper_names()));
 }
 
 }  // namespace
@@ -85,11 +105,15 @@ void add_paper(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--quick", args->options.quick, "fewer runs and steps of the same code");
   command->add_option("--world", args->options.world,
-                      "a floor plan (ROS yaml, png, pgm, bmp, .map) instead of the paper's room");
+                      "a floor plan (ROS yaml, png, pgm, bmp, .map) or a mesh instead of the paper's room");
+  command->add_option("--start", args->options.start,
+                      "x,y or x,y,yaw_deg in the --world (default: in its widest place)");
+  command->add_option("--resolution", args->options.resolution_m,
+                      "m per pixel of a --world image, m per unit of a mesh");
   command->footer(
       "Writes DIR/report.html, one page that needs nothing else, report.json with each published figure beside ours,\n"
-      "and the pictures. `all` makes a folder of each paper in DIR. The same seed gives the same figures, but for "
-      "times.\n\n"
+      "and the pictures. `all` makes a folder of each paper in DIR, and DIR/index.html over them. The same seed gives "
+      "the same\nfigures, but for times.\n\n"
       "Examples:\n"
       "  evigrid paper hughes1992 -o out/hughes\n"
       "  evigrid paper all -o out/papers --quick\n"

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "paper/page.hpp"
+#include "paper/paper.hpp"
 #include "paper/plot.hpp"
 #include "program.hpp"
 #include "temp_dir.hpp"
@@ -61,6 +62,34 @@ TEST(Paper, Hughes1992ReportsEachPublishedFigureBesideOurs) {
   EXPECT_NE(html.find("data:image/png;base64,"), std::string::npos);
   EXPECT_EQ(html.find("http://www.w3.org/2000/svg"), html.find("http"));  // nothing is fetched from anywhere
   EXPECT_GT(slurp(dir.at("one/run1_move0.png")).size(), 1000u);
+}
+
+TEST(Paper, AllOfThemWithOnePageOver) {
+  TempDir dir;
+  const Ran ran = evigrid({"paper", "all", "--quick", "-o", dir.at("out")});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::string html = slurp(dir.at("out/index.html"));
+  const auto index = nlohmann::json::parse(slurp(dir.at("out/index.json")));
+  ASSERT_EQ(index["papers"].size(), papers().size());
+  for (std::size_t i = 0; i < papers().size(); ++i) {
+    const std::string name(papers()[i].name);
+    EXPECT_EQ(index["papers"][i]["paper"], name);
+    EXPECT_NE(html.find("href=\"" + name + "/report.html\""), std::string::npos) << name;
+    const auto report = nlohmann::json::parse(slurp(dir.at("out/" + name + "/report.json")));
+    std::size_t met = 0, missed = 0;
+    for (const auto& f : report["findings"]) {
+      if (f["aim"] == "target") ++(f["met"].get<bool>() ? met : missed);
+    }
+    EXPECT_EQ(index["papers"][i]["outcomes_met"], met);
+    EXPECT_EQ(index["papers"][i]["outcomes_missed"], missed);
+  }
+}
+
+TEST(Paper, AWorldsOptionsNeedAWorld) {
+  TempDir dir;
+  const Ran ran = evigrid({"paper", "hughes1992", "-o", dir.at("out"), "--start", "1,1"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("--start: is for --world"), std::string::npos) << ran.err;
 }
 
 TEST(Paper, UnknownPapersAreRefusedByName) {

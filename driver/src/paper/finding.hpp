@@ -7,21 +7,25 @@
 
 namespace evigrid::driver {
 
-/// target: the published outcome is to be met. reported: shown beside ours, nothing is asked of it. fact: ours alone.
-enum class Aim { target, reported, fact };
+/// target: the published outcome is to be met. floor: a bound of our own that a sound map holds. reported: shown beside
+/// ours, nothing is asked of it. fact: ours alone.
+enum class Aim { target, floor, reported, fact };
 
 struct Finding {
   std::string name;       ///< what is counted or measured
   std::string published;  ///< as printed, or what the paper claims; empty: the paper gives none
   std::string ours;
   Aim aim = Aim::reported;
-  bool met = false;                ///< of a target
+  bool met = false;                ///< of a target or a floor
   std::string obtained;            ///< how ours came about, in a sentence
   nlohmann::ordered_json value{};  ///< ours as numbers, for programs
 };
 
+[[nodiscard]] inline bool asks(Aim aim) { return aim == Aim::target || aim == Aim::floor; }
 [[nodiscard]] inline const char* verdict(const Finding& f) {
-  return f.aim == Aim::target ? (f.met ? "met" : "not met") : f.aim == Aim::reported ? "reported" : "";
+  if (f.aim == Aim::target) return f.met ? "met" : "not met";
+  if (f.aim == Aim::floor) return f.met ? "holds" : "fails";
+  return f.aim == Aim::reported ? "reported" : "";
 }
 
 /// For report.json.

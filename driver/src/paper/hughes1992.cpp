@@ -10,15 +10,14 @@
 #include <optional>
 
 #include "error.hpp"
-#include "evigrid/scenes/fleet.hpp"
 #include "evigrid/scenes/simulate.hpp"
 #include "options.hpp"
+#include "paper/paper_world.hpp"
 #include "paper/plot.hpp"
 #include "paper/robot_map.hpp"
 #include "paper/runs.hpp"
 #include "picture/map_picture.hpp"
 #include "progress.hpp"
-#include "world_input.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -28,16 +27,6 @@ constexpr float kSurelyEmpty = 0.8f, kLittleConflict = 1;  // the two tests of s
 constexpr int kMostMoves = 10;                             // where the paper ends a run that does not settle
 constexpr double kStation_m = 0.457, kApart_m = 1.8;       // 1.5 feet, 6 feet
 constexpr double kPaperCells = 256 * 256;
-
-struct World {
-  scenes::Scene scene;
-  std::unique_ptr<scenes::Floor> floor;
-  std::unique_ptr<raycast::Scene> caster;
-  explicit World(scenes::Scene s)
-      : scene(std::move(s)),
-        floor(std::make_unique<scenes::Floor>(scene.world)),
-        caster(std::make_unique<raycast::Scene>(scenes::make_caster(scene))) {}
-};
 
 struct Station {
   raycast::Point centre{};
@@ -88,7 +77,7 @@ void move_towards(scenes::LiveRobot& robot, raycast::Point aim) {
 
 /// The behaviour. `after`: called with the map after each sensing.
 template <class After>
-Run move_to_station(const World& w, const scenes::Pose& start, std::uint64_t seed, int most_moves,
+Run move_to_station(const PaperWorld& w, const scenes::Pose& start, std::uint64_t seed, int most_moves,
                     const PaperOptions& o, const After& after) {
   scenes::Scene scene = w.scene;
   scene.trajectory.seed = seed;
@@ -116,7 +105,7 @@ Run move_to_station(const World& w, const scenes::Pose& start, std::uint64_t see
 
 /// Section 5.2: the vector sum of readings, each averaged over three consecutive ones; no echo counts as the full
 /// range.
-Run average_to_station(const World& w, const scenes::Pose& start, std::uint64_t seed) {
+Run average_to_station(const PaperWorld& w, const scenes::Pose& start, std::uint64_t seed) {
   constexpr int kReadings = 3;
   scenes::Scene scene = w.scene;
   scene.trajectory.seed = seed;
@@ -144,7 +133,7 @@ Run average_to_station(const World& w, const scenes::Pose& start, std::uint64_t 
 }
 
 /// Starts within a circle of diameter kApart_m around `around`, where the robot has room; any heading.
-std::vector<scenes::Pose> starts(const World& w, raycast::Point around, std::size_t count, std::uint64_t seed) {
+std::vector<scenes::Pose> starts(const PaperWorld& w, raycast::Point around, std::size_t count, std::uint64_t seed) {
   std::vector<scenes::Pose> out;
   const auto unit = [&](std::uint32_t draw, std::uint64_t n) {
     return static_cast<double>(raycast::random_bits({seed, 0, 0, n}, draw) >> 11) * 0x1p-53;
@@ -210,16 +199,8 @@ PlotSeries ends(const char* name, const std::vector<Run>& runs) {
 
 PaperResult run_hughes1992(const PaperOptions& o) {
   const bool paper_room = o.world.empty();
-  WorldOptions input;
-  if (paper_room) {
-    input.scene = "hughes1992";
-  } else {
-    input.world = o.world;
-    input.robot = "hughes24";
-  }
-  World room(open_input(input).scene);
-  if (!paper_room) room.scene.map.cell_m = 0.078;
-  const std::uint64_t seed = o.seed != 0 ? o.seed : room.scene.trajectory.seed;
+  const PaperWorld room(paper_scene(o, "hughes1992", "hughes24"));
+  const std::uint64_t seed = room.scene.trajectory.seed;
   const std::size_t count = o.quick ? 6 : 20;
   PaperResult out{
       Page("Move to station by Dempster–Shafer theory",
@@ -273,9 +254,7 @@ PaperResult run_hughes1992(const PaperOptions& o) {
        theirs.largest_m},
   };
   if (paper_room) {
-    WorldOptions hall;
-    hall.scene = "hughes1992_gymnasium";
-    const World gym(open_input(hall).scene);
+    const PaperWorld gym(paper_scene({.seed = o.seed}, "hughes1992_gymnasium", "hughes24"));
     const scenes::Pose door = scenes::drive(gym.scene.trajectory).front();
     std::optional<Canvas> last;
     const int most = o.quick ? 15 : 60;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace evigrid::driver {
 namespace {
 
@@ -62,8 +64,9 @@ nlohmann::ordered_json to_json(const std::vector<Finding>& findings) {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
   for (const Finding& f : findings) {
     nlohmann::ordered_json row{{"name", f.name}, {"published", f.published}, {"ours", f.ours}};
-    row["aim"] = f.aim == Aim::target ? "target" : f.aim == Aim::reported ? "reported" : "fact";
-    if (f.aim == Aim::target) row["met"] = f.met;
+    constexpr std::array kAims{"target", "floor", "reported", "fact"};
+    row["aim"] = kAims[static_cast<std::size_t>(f.aim)];
+    if (asks(f.aim)) row["met"] = f.met;
     if (!f.value.is_null()) row["value"] = f.value;
     row["obtained"] = f.obtained;
     out.push_back(std::move(row));
@@ -75,6 +78,12 @@ Page::Page(std::string title, std::string source) : title_(std::move(title)), so
 
 void Page::heading(std::string_view text) { body_ += fmt::format("<h2>{}</h2>\n", escaped(text)); }
 void Page::paragraph(std::string_view text) { body_ += fmt::format("<p>{}</p>\n", escaped(text)); }
+void Page::links(const std::vector<std::pair<std::string, std::string>>& links) {
+  body_ += "<ul>\n";
+  for (const auto& [to, text] : links)
+    body_ += fmt::format("<li><a href=\"{}\">{}</a></li>\n", escaped(to), escaped(text));
+  body_ += "</ul>\n";
+}
 void Page::list(const std::vector<std::string>& items) {
   body_ += "<ul>\n";
   for (const std::string& item : items) body_ += fmt::format("<li>{}</li>\n", escaped(item));
@@ -84,7 +93,7 @@ void Page::list(const std::vector<std::string>& items) {
 void Page::findings(const std::vector<Finding>& all) {
   body_ += "<table>\n<tr><th>figure</th><th>published</th><th>ours</th><th></th><th>how obtained</th></tr>\n";
   for (const Finding& f : all) {
-    const char* css = f.aim == Aim::target ? (f.met ? "met" : "missed") : "";
+    const char* css = asks(f.aim) ? (f.met ? "met" : "missed") : "";
     body_ += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"{}\">{}</td><td>{}</td></tr>\n",
                          escaped(f.name), escaped(f.published), escaped(f.ours), css, verdict(f), escaped(f.obtained));
   }

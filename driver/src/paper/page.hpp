@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "paper/finding.hpp"
@@ -19,6 +20,8 @@ class Page {
   void heading(std::string_view text);
   void paragraph(std::string_view text);
   void list(const std::vector<std::string>& items);
+  /// (address relative to the page, text).
+  void links(const std::vector<std::pair<std::string, std::string>>& links);
   void findings(const std::vector<Finding>& findings);
   void table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows);
   /// A PNG file's bytes. Several of one row side by side: begin_row() … end_row().

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,10 +17,12 @@
 namespace evigrid::driver {
 
 struct PaperOptions {
-  std::uint64_t seed = 0;  ///< 0: the scene's own
-  bool quick = false;      ///< shortened, same code: fewer runs, fewer steps
-  int threads = 0;         ///< 0: as many as the machine has; results do not depend on it
-  std::string world;       ///< a floor plan instead of the paper's room; empty: the paper's
+  std::uint64_t seed = 0;                ///< 0: the scene's own
+  bool quick = false;                    ///< shortened, same code: fewer runs, fewer steps
+  int threads = 0;                       ///< 0: as many as the machine has; results do not depend on it
+  std::string world{};                   ///< a floor plan instead of the paper's room; empty: the paper's
+  std::string start{};                   ///< "x,y" or "x,y,yaw_deg" in it; empty: in its widest place
+  std::optional<double> resolution_m{};  ///< m per pixel of a plan that does not say
 };
 
 struct PaperFile {
