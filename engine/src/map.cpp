@@ -3,7 +3,6 @@
 #include "evigrid/map.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "grid/readout.hpp"
@@ -24,7 +23,6 @@ struct Map::Impl {
   std::vector<Sensor> sensors;
   std::vector<std::uint64_t> tiles_per_worker;
   Scratch scratch;
-  std::int64_t last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
       : params(p),
@@ -59,7 +57,7 @@ Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>
 Report Map::integrate(std::span<const Scan> scans) {
   Impl& m = *impl_;
   return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns}, m.scratch,
+      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker}, m.scratch,
       scans);
 }
 
@@ -71,8 +69,12 @@ Report Map::undo(std::span<const Scan> scans) {
                            " cannot take a scan back: its cells are no sums");
   }
   return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns, true},
+      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, true},
       m.scratch, scans);
+}
+
+void Map::advance_to(std::int64_t stamp_ns) noexcept {
+  if (impl_->params.decay_s > 0 && stamp_ns > impl_->store.now_ns) impl_->store.now_ns = stamp_ns;
 }
 
 Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }
@@ -101,7 +103,6 @@ std::uint64_t Map::hash() const { return hash_cells(impl_->store); }
 void Map::clear() {
   impl_->store.clear();
   impl_->changes.clear();
-  impl_->last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 }
 const MapParams& Map::params() const noexcept { return impl_->params; }
 std::span<const Sensor> Map::sensors() const noexcept { return impl_->sensors; }
@@ -114,8 +115,8 @@ std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
 const TileStore& MapAccess::store(const Map& m) noexcept { return m.impl_->store; }
 TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
-std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->last_stamp_ns; }
-std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->last_stamp_ns; }
+std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->store.now_ns; }
+std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->store.now_ns; }
 Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }
 
 }  // namespace evigrid

@@ -20,6 +20,7 @@ void TileStore::clear() noexcept {
   tiles_.clear();
   table_.clear();
   memory_.clear();
+  now_ns = std::numeric_limits<std::int64_t>::min();
 }
 
 void TileStore::reserve(std::size_t more) const {

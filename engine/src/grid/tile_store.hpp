@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 
 #include "grid/cell_layout.hpp"
@@ -54,6 +55,9 @@ class TileStore {
   void reserve(std::size_t more) const;
   Tile& get_or_make(TileIndex);
   void clear() noexcept;
+  /// Of maps that forget, the time at which their cells are read; the stamp of the last scan in any map. The smallest
+  /// number before the first.
+  std::int64_t now_ns = std::numeric_limits<std::int64_t>::min();
   /// In row-major order of tiles.
   [[nodiscard]] const std::map<TileIndex, Tile>& tiles() const noexcept { return tiles_; }
 
