@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::array kPapers{
     Paper{"hughes1992", "Ultrasonic robot localization using Dempster-Shafer theory", true, run_hughes1992},
+    Paper{"asharif2001", "Environment mapping by Dempster-Shafer reasoning, for path planning", true, run_asharif2001},
 };
 
 }  // namespace

@@ -7,5 +7,7 @@ namespace evigrid::driver {
 
 /// Hughes & Murphy 1992: move-to-station.
 PaperResult run_hughes1992(const PaperOptions&);
+/// Asharif et al. 2001: maps by Dempster and by Bayes, and eight ways planned on them.
+PaperResult run_asharif2001(const PaperOptions&);
 
 }  // namespace evigrid::driver
