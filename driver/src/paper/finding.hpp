@@ -19,6 +19,7 @@ struct Finding {
   bool met = false;                ///< of a target or a floor
   std::string obtained;            ///< how ours came about, in a sentence
   nlohmann::ordered_json value{};  ///< ours as numbers, for programs
+  bool timed = false;              ///< a time or made of times: another run gives another one
 };
 
 [[nodiscard]] inline bool asks(Aim aim) { return aim == Aim::target || aim == Aim::floor; }

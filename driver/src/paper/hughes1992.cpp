@@ -12,12 +12,14 @@
 #include "error.hpp"
 #include "evigrid/scenes/simulate.hpp"
 #include "options.hpp"
+#include "paper/agreement.hpp"
 #include "paper/paper_world.hpp"
 #include "paper/plot.hpp"
 #include "paper/robot_map.hpp"
 #include "paper/runs.hpp"
 #include "picture/map_picture.hpp"
 #include "progress.hpp"
+#include "score/truth.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -27,6 +29,7 @@ constexpr float kSurelyEmpty = 0.8f, kLittleConflict = 1;  // the two tests of s
 constexpr int kMostMoves = 10;                             // where the paper ends a run that does not settle
 constexpr double kStation_m = 0.457, kApart_m = 1.8;       // 1.5 feet, 6 feet
 constexpr double kPaperCells = 256 * 256;
+constexpr Floors kFloors{.precision = 0.3, .recall = 0.25, .mistaken_rate = 0.15};  // wide arcs, few places
 
 struct Station {
   raycast::Point centre{};
@@ -216,10 +219,13 @@ PaperResult run_hughes1992(const PaperOptions& o) {
   const std::vector<scenes::Pose> from = starts(room, scout.end(), count, seed);
   std::vector<Run> runs, averaged;
   std::vector<PaperFile> pictures;
+  std::optional<Score> agrees;
+  const SceneTruth truth = scene_truth(room.scene, room.scene.map.cell_m);
   Progress progress("moving to station");
   for (std::size_t i = 0; i < count; ++i) {
     runs.push_back(move_to_station(room, from[i], seed + 1 + i, kMostMoves, o, [&](const Map& map, const Run& run) {
       if (i != 0) return;
+      if (truth.grid) agrees = score(render_layers(map, 512), *truth.grid);
       const std::string file = fmt::format("run1_move{}.png", run.moves());
       pictures.push_back({file, png(panels(map, run, fmt::format("run 1 after {} moves", run.moves()), file))});
     }));
@@ -253,6 +259,9 @@ PaperResult run_hughes1992(const PaperOptions& o) {
        "vector sum of the readings, each the mean of three, from the same starts; ended after ten moves",
        theirs.largest_m},
   };
+  if (agrees && paper_room) {
+    for (Finding& f : agreement("map of run 1", *agrees, kFloors)) out.findings.push_back(std::move(f));
+  }
   if (paper_room) {
     const PaperWorld gym(paper_scene({.seed = o.seed}, "hughes1992_gymnasium", "hughes24"));
     const scenes::Pose door = scenes::drive(gym.scene.trajectory).front();

@@ -69,6 +69,7 @@ nlohmann::ordered_json to_json(const std::vector<Finding>& findings) {
     if (asks(f.aim)) row["met"] = f.met;
     if (!f.value.is_null()) row["value"] = f.value;
     row["obtained"] = f.obtained;
+    if (f.timed) row["timed"] = true;
     out.push_back(std::move(row));
   }
   return out;
