@@ -8,6 +8,7 @@
 #include "paper/page.hpp"
 #include "paper/paper.hpp"
 #include "paper/plot.hpp"
+#include "paper/turning_surface.hpp"
 #include "program.hpp"
 #include "temp_dir.hpp"
 
@@ -117,6 +118,41 @@ TEST(Paper, Asharif2001DempstersWaysKeepFartherBayesMapIsCleaner) {
   const auto off = value("the map nearer to the ideal one");
   EXPECT_LT(off[1].get<double>(), off[0].get<double>());
   EXPECT_EQ(value("ways through the true obstacles"), nlohmann::json({0, 0}));
+}
+
+TEST(Paper, Li2006TwoOpinionsOnTheSameMap) {
+  TempDir dir;
+  ASSERT_EQ(evigrid({"paper", "li2006", "--quick", "-o", dir.at("out")}).code, 0);
+  const auto report = nlohmann::json::parse(slurp(dir.at("out/report.json")));
+  nlohmann::json precision, mistaken, five;
+  for (const auto& f : report["findings"]) {
+    if (f["name"] == "order of precision") precision = f["value"];
+    if (f["name"] == "order of the mistaken rate") mistaken = f["value"];
+    if (f["name"] == "cells fused by fives, as the flowchart says") five = f["value"];
+  }
+  // The engine's map of PCR5 against one cell by cell in double, from the equations, which lets readings wait.
+  EXPECT_NEAR(precision[3].get<double>(), five[0].get<double>(), 0.03);
+  EXPECT_NEAR(mistaken[3].get<double>(), five[1].get<double>(), 0.03);
+  EXPECT_LT(five[3].get<double>(), 1.5 * five[2].get<double>());  // what decides otherwise was mostly seen too seldom
+  EXPECT_GT(slurp(dir.at("out/surface.png")).size(), 10000u);
+}
+
+TEST(TurningSurface, HoldsEveryHeightAndFetchesNothing) {
+  Layers l;
+  l.rect = {-2, 3, 3, 2};
+  l.cell_m = 0.5;
+  l.planes.assign(4 * l.cells(), 0);
+  std::fill_n(l.planes.begin() + 12, 6, 1.0F);      // u: nothing is known …
+  l.planes[6 + 4] = 0.4F, l.planes[12 + 4] = 0.6F;  // … but m(occupied) = 0.4 of cell (1, 1)
+  const std::string markup = turning_surface(l, "one");
+  // 3 × 2 cells and a rim: 5 × 4 heights, all never seen (255) but that one (0.4 · 250 = 100).
+  std::vector<std::byte> z(20, std::byte{255});
+  z[2 * 5 + 2] = std::byte{100};
+  EXPECT_NE(markup.find("z: '" + base64(z) + "'"), std::string::npos) << markup.substr(0, 600);
+  EXPECT_NE(markup.find("from: ['-1', '1.5'], to: ['0.5', '2.5']"), std::string::npos);
+  EXPECT_NE(markup.find("id=\"one\""), std::string::npos);
+  EXPECT_EQ(markup.find("http"), std::string::npos);
+  EXPECT_EQ(markup.find("src="), std::string::npos);
 }
 
 TEST(Paper, AllOfThemWithOnePageOver) {

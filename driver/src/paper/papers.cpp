@@ -9,6 +9,7 @@ namespace {
 constexpr std::array kPapers{
     Paper{"hughes1992", "Ultrasonic robot localization using Dempster-Shafer theory", true, run_hughes1992},
     Paper{"asharif2001", "Environment mapping by Dempster-Shafer reasoning, for path planning", true, run_asharif2001},
+    Paper{"li2006", "Sonar grid maps with DSmT and PCR5", true, run_li2006},
 };
 
 }  // namespace

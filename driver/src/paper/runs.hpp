@@ -9,5 +9,7 @@ namespace evigrid::driver {
 PaperResult run_hughes1992(const PaperOptions&);
 /// Asharif et al. 2001: maps by Dempster and by Bayes, and eight ways planned on them.
 PaperResult run_asharif2001(const PaperOptions&);
+/// Li, Huang & Dezert 2006, chapter 14: four methods on one drive.
+PaperResult run_li2006(const PaperOptions&);
 
 }  // namespace evigrid::driver

@@ -9,57 +9,16 @@
 #include <limits>
 #include <numbers>
 
+#include "picture/heights.hpp"
 #include "picture/map_picture.hpp"
 
 namespace evigrid::driver {
 namespace {
 
-constexpr int kWidth_px = 1200, kSuper = 2, kMostCells = 240;
+constexpr int kWidth_px = 1200, kSuper = 2, kMostBlocks = 240;
 constexpr double kAzimuth_rad = -35 * std::numbers::pi / 180, kElevation_rad = 38 * std::numbers::pi / 180;
 constexpr double kHeight = 0.12;  // of z = 1 in the box
 constexpr Rgb kWall{243, 243, 243}, kGrid{208, 208, 208}, kGround{196, 196, 196};
-
-/// bel(occupied) at block centres, with a rim at the border of the map that brings the surface down to the ground.
-struct Heights {
-  int nx = 0, ny = 0;
-  std::vector<double> x, y;  ///< in the box, from −½ (times the aspect) to ½
-  std::vector<float> bel;
-  std::vector<bool> seen;
-  [[nodiscard]] std::size_t at(int i, int j) const {
-    return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(i);
-  }
-};
-
-Heights heights_of(const Layers& l) {
-  const auto longest = static_cast<double>(std::max(l.rect.width, l.rect.height));
-  const std::int64_t block =
-      std::max<std::int64_t>(1, (std::max(l.rect.width, l.rect.height) + kMostCells - 1) / kMostCells);
-  const auto axis = [&](std::int64_t cells) {
-    std::vector<double> out{-0.5 * static_cast<double>(cells) / longest};
-    for (std::int64_t at = 0; at < cells; at += block) {
-      const double middle = 0.5 * static_cast<double>(at + std::min(at + block, cells));
-      out.push_back((middle - 0.5 * static_cast<double>(cells)) / longest);
-    }
-    out.push_back(0.5 * static_cast<double>(cells) / longest);
-    return out;
-  };
-  Heights h;
-  h.x = axis(l.rect.width);
-  h.y = axis(l.rect.height);
-  h.nx = static_cast<int>(h.x.size());
-  h.ny = static_cast<int>(h.y.size());
-  h.bel.assign(h.x.size() * h.y.size(), 0);
-  h.seen.assign(h.bel.size(), false);
-  for (std::int64_t y = 0; y < l.rect.height; ++y) {
-    for (std::int64_t x = 0; x < l.rect.width; ++x) {
-      const auto cell = static_cast<std::size_t>(y * l.rect.width + x);
-      const std::size_t to = h.at(static_cast<int>(x / block) + 1, static_cast<int>(y / block) + 1);
-      h.bel[to] = std::max(h.bel[to], l.o()[cell]);
-      if (!never_seen(l, cell)) h.seen[to] = true;
-    }
-  }
-  return h;
-}
 
 struct Point {
   double x, y, depth;  ///< pixels, and away from the eye
@@ -246,7 +205,7 @@ Canvas draw_surface(const Layers& layers, const PictureText& text, const Picture
   const int height = Scene::height_px(half_x, half_y);
   Scene scene(canvas_within(kSuper * kWidth_px, kSuper * height, options), half_x, half_y);
   draw_box(scene, layers, half_x, half_y, true);
-  draw_quads(scene, heights_of(layers));
+  draw_quads(scene, heights_of(layers, kMostBlocks));
   draw_box(scene, layers, half_x, half_y, false);
   Canvas out = halved(scene.canvas());
   draw_head(out, {text.title + ": " + std::string(row_of(Look::surface).title), text.subtitle});
