@@ -87,6 +87,44 @@ TEST(Planner, FindsTheCheapestWay) {
   EXPECT_GT(found, 200);
 }
 
+TEST(OpenList, GivesItemsInTheOrderOfOneHeap) {
+  // Pushes as a search makes them: never below what was taken last, some far beyond the ring of buckets.
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto later = [](const OpenList::Item& a, const OpenList::Item& b) {
+    return a.f != b.f ? a.f > b.f : a.g != b.g ? a.g < b.g : a.index > b.index;
+  };
+  OpenList list;
+  for (int round = 0; round < 3; ++round) {
+    list.clear();  // with items left from the round before
+    std::priority_queue<OpenList::Item, std::vector<OpenList::Item>, decltype(later)> want(later);
+    double f = 100 * unit(engine);
+    std::uint32_t index = 0;
+    const auto push = [&](double by) {
+      const OpenList::Item item{f + by, std::floor(4 * unit(engine)), index++};
+      list.push(item), want.push(item);
+    };
+    push(0);
+    for (int i = 0; i < 20000 && !want.empty(); ++i) {
+      ASSERT_FALSE(list.empty());
+      const OpenList::Item got = list.pop(), top = want.top();
+      want.pop();
+      ASSERT_EQ(got.f, top.f);
+      ASSERT_EQ(got.g, top.g);
+      ASSERT_EQ(got.index, top.index);
+      f = got.f;
+      const double kind = unit(engine);
+      if (i < 15000 || round == 2) {
+        push(0);
+        if (kind < 0.3) push(unit(engine));
+        if (kind < 0.02) push(1000 * unit(engine));
+        if (kind < 0.001) push(1e18 * unit(engine));
+      }
+    }
+    EXPECT_EQ(list.empty(), want.empty());
+  }
+}
+
 TEST(Planner, EdgesOfTheQuestion) {
   Planner planner;
   CostGrid grid(3, 3);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "equivalence/random_scans.hpp"
+#include "evigrid/view.hpp"
 
 namespace evigrid {
 namespace {
@@ -120,6 +121,18 @@ TEST(Decay, TimeThatRunsBackwardsBringsNothingBack) {
   hear_again(in_order, 10 * kSecond);
   in_order.advance_to(12 * kSecond);
   EXPECT_EQ(map.hash(), in_order.hash());
+}
+
+TEST(Decay, AViewKeepsItsTime) {
+  Map map = heard({.decay_s = 2}, 0);
+  const MapView view = map.view();
+  const std::uint64_t then = map.hash();
+  map.advance_to(kSecond);
+  EXPECT_EQ(view.hash(), then);
+  EXPECT_NE(map.hash(), then);
+  EXPECT_EQ(map.view().hash(), map.hash());
+  hear_again(map, 2 * kSecond);
+  EXPECT_EQ(view.hash(), then);
 }
 
 TEST(Decay, ASensorMayHaveATimeOfItsOwn) {

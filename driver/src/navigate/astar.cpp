@@ -19,7 +19,39 @@ double octile(GridCell a, GridCell b) {
   return std::max(dx, dy) + (kDiagonal - 1) * std::min(dx, dy);
 }
 
+/// The eight cells around one: kBlocked where no step leads.
+struct Around {
+  std::array<float, 8> cost;
+  std::array<std::size_t, 8> index;
+};
+
+Around look_around(const CostGrid& grid, GridCell at, std::size_t index) {
+  Around out{};
+  const bool inner = at.x > 0 && at.y > 0 && at.x < grid.width - 1 && at.y < grid.height - 1;
+  for (std::size_t d = 0; d < 8; ++d) {
+    const GridCell to{at.x + kSteps[d].x, at.y + kSteps[d].y};
+    out.index[d] = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + kSteps[d].x +
+                                            static_cast<std::ptrdiff_t>(kSteps[d].y) * grid.width);
+    out.cost[d] = inner || grid.inside(to) ? grid.cost[out.index[d]] : kBlocked;
+  }
+  for (std::size_t d = 4; d < 8; ++d) {
+    if (out.cost[d - 4] == kBlocked || out.cost[(d - 3) % 4] == kBlocked) out.cost[d] = kBlocked;
+  }
+  return out;
+}
+
 }  // namespace
+
+void Planner::fetch_ahead(const CostGrid& grid, std::uint32_t index) const {
+  const auto row = static_cast<std::uintptr_t>(grid.width);
+  for (const std::uintptr_t back : {std::uintptr_t{0}, row, 0 - row}) {  // addresses alone: none is read
+    const std::uintptr_t i = index - back;
+    __builtin_prefetch(
+        reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(nodes_.data()) + i * sizeof(Node)));
+    __builtin_prefetch(
+        reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(grid.cost.data()) + i * sizeof(float)));
+  }
+}
 
 GridPath Planner::find(const CostGrid& grid, GridCell start, GridCell goal) {
   GridPath path;
@@ -34,43 +66,28 @@ GridPath Planner::find(const CostGrid& grid, GridCell start, GridCell goal) {
     std::fill(nodes_.begin(), nodes_.end(), Node{});
     search_ = 1;
   }
-  // Of equal f the larger g first: it is nearer to the goal; then the lower index, so that the way is repeatable.
-  const auto later = [](const Open& a, const Open& b) {
-    return a.f != b.f ? a.f > b.f : a.g != b.g ? a.g < b.g : a.index > b.index;
-  };
-  heap_.clear();
-  const auto push = [&](double f, double g, std::size_t index) {
-    heap_.push_back({f, g, static_cast<std::uint32_t>(index)});
-    std::push_heap(heap_.begin(), heap_.end(), later);
-  };
+  open_.clear();
   nodes_[grid.index(start)] = {0, search_, kStart, false};
-  push(octile(start, goal), 0, grid.index(start));
+  open_.push({octile(start, goal), 0, static_cast<std::uint32_t>(grid.index(start))});
   const std::size_t target = grid.index(goal);
-  while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end(), later);
-    const Open top = heap_.back();
-    heap_.pop_back();
+  while (!open_.empty()) {
+    const OpenList::Item top = open_.pop();
+    if (const OpenList::Item* soon = open_.peek()) fetch_ahead(grid, soon->index);
     Node& node = nodes_[top.index];
     if (node.closed || top.g != node.g) continue;  // a better way came since
     node.closed = true;
     ++path.expanded;
     if (top.index == target) break;
     const GridCell at = grid.cell(top.index);
-    std::array<bool, 8> open{};
-    for (std::uint8_t d = 0; d < 4; ++d) open[d] = grid.free({at.x + kSteps[d].x, at.y + kSteps[d].y});
-    for (std::uint8_t d = 4; d < 8; ++d) {
-      const std::size_t one = d - 4U, other = (d - 3U) % 4;
-      open[d] = open[one] && open[other] && grid.free({at.x + kSteps[d].x, at.y + kSteps[d].y});
-    }
+    const Around around = look_around(grid, at, top.index);
     for (std::uint8_t d = 0; d < 8; ++d) {
-      if (!open[d]) continue;
-      const GridCell to{at.x + kSteps[d].x, at.y + kSteps[d].y};
-      const std::size_t index = grid.index(to);
-      const double g = top.g + (d < 4 ? 1.0 : kDiagonal) * static_cast<double>(grid.cost[index]);
+      if (around.cost[d] == kBlocked) continue;
+      const std::size_t index = around.index[d];
+      const double g = top.g + (d < 4 ? 1.0 : kDiagonal) * static_cast<double>(around.cost[d]);
       Node& next = nodes_[index];
       if (next.search == search_ && (next.closed || next.g <= g)) continue;
       next = {g, search_, d, false};
-      push(g + octile(to, goal), g, index);
+      open_.push({g + octile({at.x + kSteps[d].x, at.y + kSteps[d].y}, goal), g, static_cast<std::uint32_t>(index)});
     }
   }
   if (nodes_[target].search != search_ || !nodes_[target].closed) return path;
