@@ -231,7 +231,8 @@ PaperResult run_li2006(const PaperOptions& o) {
       for (Finding& f : agreement(kMethods[i].name, maps[i].score, kFloors[i])) out.findings.push_back(std::move(f));
   }
   out.files.push_back({"methods.png", png(draw_methods(maps, drive))});
-  out.files.push_back({"surface.png", png(draw_surface(maps[kDsmt].layers, {"DSmT + PCR5", "one drive around a box"}))});
+  out.files.push_back(
+      {"surface.png", png(draw_surface(maps[kDsmt].layers, {"DSmT + PCR5", "one drive around a box"}))});
 
   Page& page = out.page;
   page.paragraph(
