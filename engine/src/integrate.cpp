@@ -8,6 +8,7 @@
 
 #include "kernels/row/portable_math.hpp"
 #include "rule_kernels.hpp"
+#include "scan/copy_tiles.hpp"
 #include "scan/gate.hpp"
 #include "scratch.hpp"
 
@@ -58,7 +59,7 @@ class RegionTask {
       if (w.reached == 0 || w.touched) continue;
       ++tiles;
       if (stats.cells == 0) continue;
-      w.tile->change->mark(w.reached, b_.p.changes.next());
+      w.tile->buffer->marks.mark(w.reached, b_.p.changes.next());
       w.touched = true;
     }
   }
@@ -92,7 +93,7 @@ class RegionTask {
   void fuse_fan(const kernels::Fan& fan, TileWork& w) {
     const kernels::FanReading& q = fan.reading;
     kernels::TileArgs args;
-    args.cells = w.tile->cells.get();
+    args.cells = w.tile->cells;
     args.planes = b_.p.store.planes();
     args.conflict_plane = b_.p.params.keep_conflict && !b_.p.undo;
     args.rule = b_.rule;
@@ -150,7 +151,7 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   compile_all(s.footprints, p);
   const int threads = p.executor.concurrency();
   bin(s.footprints, p.table, p.store, threads, s.plan);
-  for (const TileWork& w : s.plan.tiles) p.changes.enroll(*w.tile);
+  copy_what_views_see(s.plan, p.store, p.executor);
   s.stats.assign(s.plan.regions(), {});
   if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
   Batch batch{p, s, args_of(p.params, p.undo)};
@@ -175,7 +176,7 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
     Report one;
     one.touched = {w.at.x * kSide, w.at.y * kSide, kSide, kSide};
     report += one;
-    p.changes.moved(*w.tile->change);
+    p.changes.moved(*w.tile);
   }
   if (report.cells_updated > 0) p.changes.commit();
   return report;

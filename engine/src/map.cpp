@@ -2,11 +2,13 @@
 // The public face: parameters checked, kernels chosen once, everything else handed on.
 #include "evigrid/map.hpp"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "evigrid/view.hpp"
 #include "grid/readout.hpp"
+#include "grid/tile_catalog.hpp"
+#include "grid/view_state.hpp"
 #include "integrate.hpp"
 #include "io/map_access.hpp"
 #include "params/table.hpp"
@@ -20,8 +22,9 @@ struct Map::Impl {
   std::shared_ptr<Executor> executor;
   TileStore store;
   ChangeLog changes;
+  Cataloguer cataloguer;
   std::vector<CompiledSensor> compiled;
-  std::vector<Sensor> sensors;
+  std::shared_ptr<const std::vector<Sensor>> sensors = std::make_shared<const std::vector<Sensor>>();  // views keep it
   std::vector<std::uint64_t> tiles_per_worker;
   Scratch scratch;
   std::int64_t last_stamp_ns = std::numeric_limits<std::int64_t>::min();
@@ -51,8 +54,10 @@ SensorId Map::add(const Sensor& sensor) {
   if (errors.empty()) errors = check_reach(sensor, impl_->params.cell_m);
   if (!errors.empty()) throw std::invalid_argument(describe(errors));
   impl_->compiled.emplace_back(sensor, impl_->params.cell_m);
-  impl_->sensors.push_back(sensor);
-  return static_cast<SensorId>(impl_->sensors.size() - 1);
+  auto all = std::make_shared<std::vector<Sensor>>(*impl_->sensors);
+  all->push_back(sensor);
+  impl_->sensors = std::move(all);
+  return static_cast<SensorId>(impl_->sensors->size() - 1);
 }
 
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
@@ -79,10 +84,7 @@ Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).m
 float Map::conflict(CellIndex c) const noexcept { return read_cell(impl_->store, c).conflict; }
 float Map::con(CellIndex c) const noexcept { return read_cell(impl_->store, c).con; }
 float Map::last_conflict(CellIndex c) const noexcept { return read_cell(impl_->store, c).last_conflict; }
-CellIndex Map::cell_at(double x_m, double y_m) const noexcept {
-  const double c = impl_->params.cell_m;
-  return {static_cast<std::int64_t>(std::floor(x_m / c)), static_cast<std::int64_t>(std::floor(y_m / c))};
-}
+CellIndex Map::cell_at(double x_m, double y_m) const noexcept { return cell_of(x_m, y_m, impl_->params.cell_m); }
 CellRect Map::bounds() const { return occupied_bounds(impl_->store); }
 void Map::render(Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride,
                  const ReadOutParams& params) const {
@@ -98,20 +100,27 @@ std::uint64_t Map::version() const noexcept { return impl_->changes.version(); }
 Changes Map::changes(std::uint64_t since) const { return impl_->changes.since(since); }
 std::uint64_t Map::hash() const { return hash_cells(impl_->store); }
 
+MapView Map::view() {
+  Impl& m = *impl_;
+  auto catalog = m.cataloguer.bring_up_to_date(m.store, m.changes);
+  return MapView(std::make_shared<const ViewState>(
+      m.store, std::move(catalog), ViewState::Facts{m.params, m.sensors, m.last_stamp_ns, m.changes.losses()}));
+}
+
 void Map::clear() {
   impl_->store.clear();
   impl_->changes.clear();
   impl_->last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 }
 const MapParams& Map::params() const noexcept { return impl_->params; }
-std::span<const Sensor> Map::sensors() const noexcept { return impl_->sensors; }
+std::span<const Sensor> Map::sensors() const noexcept { return *impl_->sensors; }
 std::string_view Map::kernel_name() const noexcept { return impl_->table->name; }
 std::string_view Map::executor_name() const noexcept { return impl_->executor->name(); }
 std::span<const std::uint64_t> Map::tiles_per_worker() const noexcept { return impl_->tiles_per_worker; }
 std::size_t Map::tiles() const noexcept { return impl_->store.size(); }
 std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
 
-const TileStore& MapAccess::store(const Map& m) noexcept { return m.impl_->store; }
+const TileSource& MapAccess::source(const Map& m) noexcept { return m.impl_->store; }
 TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
 std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->last_stamp_ns; }

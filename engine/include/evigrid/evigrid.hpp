@@ -12,3 +12,4 @@
 #include "evigrid/sensor.hpp"
 #include "evigrid/types.hpp"
 #include "evigrid/version.hpp"
+#include "evigrid/view.hpp"

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "evigrid/map.hpp"
+#include "evigrid/view.hpp"
 
 namespace evigrid {
 
@@ -52,6 +53,11 @@ struct LoadOptions {
 void save(const Map&, const std::filesystem::path& path);
 /// The same bytes into a stream. Throws MapFileError when the stream fails.
 void save(const Map&, std::ostream&);
+
+/// A view is saved while its map goes on fusing: the bytes are those of the map at the view's version. On the calling
+/// thread, or on an executor that is not the busy map's own.
+void save(const MapView&, const std::filesystem::path& path, Executor* = nullptr);
+void save(const MapView&, std::ostream&, Executor* = nullptr);
 
 [[nodiscard]] Map load(const std::filesystem::path& path, const LoadOptions& = {});
 /// @param name what errors call the bytes.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The evidential occupancy grid: sparse, tiled, without borders. One writer; const members may run together but never
-// beside integrate(), clear() or add(). Never prints, aborts, or changes a process-wide setting.
+// beside the others: who reads while the map fuses reads a view() (view.hpp). Never prints, aborts, or changes a
+// process-wide setting.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -62,10 +63,12 @@ struct Costmap {
 struct Changes {
   std::uint64_t version = 0;  ///< of the map now: what to ask with next time
   bool cleared = false;       ///< the map was cleared since: nothing drawn before holds any more
-  /// One for each tile that changed, the last changed first; they do not overlap. Outside them no cell changed.
+  /// One for each tile that changed: those that were dropped, then the others, the last changed first. They do not
+  /// overlap. Outside them no cell changed.
   std::vector<CellRect> rects;
 };
 
+class MapView;
 struct MapAccess;  // of the library itself: saving and loading
 
 class Map {
@@ -109,12 +112,17 @@ class Map {
   /// Counts the calls that changed a cell, and clear(). 0: nothing yet.
   [[nodiscard]] std::uint64_t version() const noexcept;
   /// What changed after that version: within each tile of 64 × 64 cells the box of the 8 × 8 blocks that readings
-  /// reached. Its cost grows with what changed, not with the map. Several consumers may each ask with their own version.
+  /// reached. Its cost grows with what changed, not with the map. Several consumers may each ask with their own
+  /// version.
   [[nodiscard]] Changes changes(std::uint64_t since) const;
 
-  /// Hash of (index, bits of e, o, u and, under the rules that keep one, c) of the non-vacuous cells in row-major order;
-  /// independent of tiles and threads.
+  /// Hash of (index, bits of e, o, u and, under the rules that keep one, c) of the non-vacuous cells in row-major
+  /// order; independent of tiles and threads.
   [[nodiscard]] std::uint64_t hash() const;
+
+  /// The map as it is now, for ever, for any number of threads (view.hpp). Costs what changed since the view before;
+  /// afterwards each tile is copied once when it is first written again, as long as a view lives.
+  [[nodiscard]] MapView view();
 
   void clear();
   [[nodiscard]] const MapParams& params() const noexcept;
@@ -123,7 +131,7 @@ class Map {
   [[nodiscard]] std::string_view executor_name() const noexcept;
   [[nodiscard]] std::span<const std::uint64_t> tiles_per_worker() const noexcept;  ///< tile tasks each worker ran
   [[nodiscard]] std::size_t tiles() const noexcept;
-  [[nodiscard]] std::size_t memory_bytes() const noexcept;
+  [[nodiscard]] std::size_t memory_bytes() const noexcept;  ///< of tiles, with those that only views still hold
 
  private:
   friend struct MapAccess;

@@ -5,10 +5,8 @@
 #include <bit>
 
 namespace evigrid {
-namespace {
 
-/// Box of the blocks that changed after `version`, in cells of the map.
-CellRect changed_box(const TileChange& tile, std::uint64_t version) {
+CellRect changed_box(TileIndex at, const TileMarks& tile, std::uint64_t version) noexcept {
   int x0 = kBlocksPerSide, x1 = -1, y0 = kBlocksPerSide, y1 = -1;
   for (int y = 0; y < kBlocksPerSide; ++y) {
     for (int x = 0; x < kBlocksPerSide; ++x) {
@@ -17,48 +15,82 @@ CellRect changed_box(const TileChange& tile, std::uint64_t version) {
       y0 = std::min(y0, y), y1 = std::max(y1, y);
     }
   }
-  return {tile.at.x * kernels::kTileSide + x0 * kBlockSide, tile.at.y * kernels::kTileSide + y0 * kBlockSide,
+  return {at.x * kernels::kTileSide + x0 * kBlockSide, at.y * kernels::kTileSide + y0 * kBlockSide,
           (x1 - x0 + 1) * kBlockSide, (y1 - y0 + 1) * kBlockSide};
 }
 
-}  // namespace
+CellRect whole_box(TileIndex at) noexcept {
+  constexpr std::int64_t kSide = kernels::kTileSide;
+  return {at.x * kSide, at.y * kSide, kSide, kSide};
+}
 
-void TileChange::mark(BlockMask blocks, std::uint64_t now) noexcept {
+void TileMarks::mark(BlockMask blocks, std::uint64_t now) noexcept {
   if (blocks == 0) return;
   last = now;
   for (; blocks != 0; blocks &= blocks - 1) version[static_cast<std::size_t>(std::countr_zero(blocks))] = now;
 }
 
-void ChangeLog::enroll(Tile& tile) {
-  if (tile.change != nullptr) return;
-  tile.change = &records_.emplace_back();
-  tile.change->at = tile.index;
+Changes begin_changes(const Losses& losses, std::uint64_t since) {
+  Changes out;
+  out.version = losses.version;
+  out.cleared = since < losses.cleared;
+  if (losses.dropped) {
+    for (auto d = losses.dropped->rbegin(); d != losses.dropped->rend() && d->version > since; ++d)
+      out.rects.push_back(whole_box(d->at));
+  }
+  return out;
 }
 
-void ChangeLog::moved(TileChange& r) noexcept {
-  if (newest_ == &r) return;
-  if (r.newer != nullptr) {  // chained already: take it out
-    r.newer->older = r.older;
-    (r.older != nullptr ? r.older->newer : oldest_) = r.newer;
+void ChangeLog::unchain(Tile& t) noexcept {
+  if (t.newer != nullptr || newest_ == &t) {
+    (t.newer != nullptr ? t.newer->older : newest_) = t.older;
+    (t.older != nullptr ? t.older->newer : oldest_) = t.newer;
   }
-  r.newer = nullptr;
-  r.older = newest_;
-  (newest_ != nullptr ? newest_->newer : oldest_) = &r;
-  newest_ = &r;
+  t.newer = t.older = nullptr;
+}
+
+void ChangeLog::moved(Tile& t) {
+  if (t.fresh) {
+    t.fresh = false;
+    const auto same = [&](const Dropped& d) { return d.at == t.index; };
+    if (losses_.dropped && std::any_of(losses_.dropped->begin(), losses_.dropped->end(), same)) {
+      auto left = std::make_shared<std::vector<Dropped>>(*losses_.dropped);  // views keep the list they know
+      std::erase_if(*left, same);
+      losses_.dropped = std::move(left);
+      t.buffer->marks.mark(~BlockMask{0}, next());  // it comes back: all of it is new
+    }
+  }
+  if (newest_ == &t) return;
+  unchain(t);
+  t.older = newest_;
+  (newest_ != nullptr ? newest_->newer : oldest_) = &t;
+  newest_ = &t;
+}
+
+void ChangeLog::drop(std::span<Tile* const> tiles) {
+  if (tiles.empty()) return;
+  auto all = std::make_shared<std::vector<Dropped>>();
+  if (losses_.dropped) *all = *losses_.dropped;
+  for (const Tile* t : tiles) all->push_back({t->index, next()});
+  if (all->size() > kMostDropped) {
+    const auto end = all->end() - kMostDropped;
+    losses_.cleared = std::max(losses_.cleared, (end - 1)->version);
+    all->erase(all->begin(), end);
+  }
+  losses_.dropped = std::move(all);
+  for (Tile* t : tiles) unchain(*t);
 }
 
 void ChangeLog::clear() noexcept {
-  records_.clear();
   newest_ = oldest_ = nullptr;
-  cleared_ = ++version_;
+  losses_.dropped.reset();
+  losses_.cleared = ++losses_.version;
 }
 
 Changes ChangeLog::since(std::uint64_t version) const {
-  Changes out;
-  out.version = version_;
-  out.cleared = version < cleared_;
-  for (const TileChange* r = newest_; r != nullptr && r->last > version; r = r->older)
-    out.rects.push_back(changed_box(*r, version));
+  Changes out = begin_changes(losses_, version);
+  for (const Tile* t = newest_; t != nullptr && t->buffer->marks.last > version; t = t->older)
+    out.rects.push_back(changed_box(t->index, t->buffer->marks, version));
   return out;
 }
 

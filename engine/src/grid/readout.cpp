@@ -19,9 +19,8 @@ constexpr float kZeros[kCells] = {};
 struct Strip {
   alignas(64) float masses[kernels::kMicrosPerSide * 4 * kCells];
 
-  void read(const TileStore& store, const Tile& tile, int y) {
-    store.layout().read_out(tile.cells.get() + store.cell_offset(0, y & ~3), store.planes(), kernels::kMicrosPerSide,
-                            masses);
+  void read(const TileSource& store, const float* cells, int y) {
+    store.layout().read_out(cells + store.cell_offset(0, y & ~3), store.planes(), kernels::kMicrosPerSide, masses);
   }
   [[nodiscard]] Mass at(int x, int y) const noexcept {
     const float* p = masses + (x / kMicro) * 4 * kCells + (y % kMicro) * kMicro + x % kMicro;
@@ -29,9 +28,9 @@ struct Strip {
   }
 };
 
-void add_history(const TileStore& store, const Tile& tile, int x, int y, CellState& out) noexcept {
+void add_history(const TileSource& store, const float* cells, int x, int y, CellState& out) noexcept {
   const CellLayout& l = store.layout();
-  const float* p = tile.cells.get() + store.cell_offset(x, y);
+  const float* p = cells + store.cell_offset(x, y);
   if (l.conflict >= 0) out.conflict = p[l.conflict * kCells];
   if (l.con >= 0) out.con = p[l.con * kCells];
   if (l.last_conflict >= 0) out.last_conflict = p[l.last_conflict * kCells];
@@ -85,16 +84,16 @@ void require_room(CellRect rect, std::size_t size, std::ptrdiff_t stride) {
 /// where these are masses so that the compiler sees vectors; those within the rectangle go to their rows. `part` lies
 /// in the tile.
 template <class T, class F>
-void fill_tile(const TileStore& store, const Tile& tile, CellRect part, T* to, std::ptrdiff_t stride, F&& of) {
+void fill_tile(const TileSource& store, const float* cells, CellRect part, T* to, std::ptrdiff_t stride, F&& of) {
   const int x0 = static_cast<int>(part.x & 63), x1 = x0 + static_cast<int>(part.width);
   const int y0 = static_cast<int>(part.y & 63), y1 = y0 + static_cast<int>(part.height);
   const CellLayout& l = store.layout();
   Strip strip;
   T values[kCells];
   for (int my = y0 & ~3; my < y1; my += kMicro) {
-    if (!l.planes_are_masses) strip.read(store, tile, my);
+    if (!l.planes_are_masses) strip.read(store, cells, my);
     for (int mx = x0 & ~3; mx < x1; mx += kMicro) {
-      const float* p = tile.cells.get() + store.cell_offset(mx, my);
+      const float* p = cells + store.cell_offset(mx, my);
       const auto kept = [&](int plane) { return plane < 0 ? kZeros : p + plane * kCells; };
       const float* masses = l.planes_are_masses ? p : strip.masses + (mx / kMicro) * 4 * kCells;
       const float* c = l.planes_are_masses ? kept(l.paradox) : masses + 3 * kCells;
@@ -109,7 +108,7 @@ void fill_tile(const TileStore& store, const Tile& tile, CellRect part, T* to, s
 
 /// Tile by tile into the caller's buffer; `never_seen` where there is none.
 template <class T, class F>
-void fill(const TileStore& store, CellRect rect, std::span<T> out, std::ptrdiff_t stride, T never_seen, F&& of) {
+void fill(const TileSource& store, CellRect rect, std::span<T> out, std::ptrdiff_t stride, T never_seen, F&& of) {
   if (rect.empty()) return;
   require_room(rect, out.size(), stride);
   const std::int64_t x_end = rect.x + rect.width, y_end = rect.y + rect.height;
@@ -118,8 +117,8 @@ void fill(const TileStore& store, CellRect rect, std::span<T> out, std::ptrdiff_
     for (std::int64_t x = rect.x; x < x_end;) {
       const std::int64_t right = std::min((tile_coordinate(x) + 1) * kSide, x_end);
       T* to = out.data() + (y - rect.y) * stride + (x - rect.x);
-      if (const Tile* tile = store.find(tile_of(x, y))) {
-        fill_tile(store, *tile, {x, y, right - x, below - y}, to, stride, of);
+      if (const float* cells = store.cells_of(tile_of(x, y))) {
+        fill_tile(store, cells, {x, y, right - x, below - y}, to, stride, of);
       } else {
         for (std::int64_t row = 0; row < below - y; ++row) std::fill_n(to + row * stride, right - x, never_seen);
       }
@@ -175,7 +174,7 @@ void require_ordered(const Costmap& c) {
 }
 
 template <class T>
-void render_costs(const TileStore& store, const Costs& c, CellRect rect, std::span<T> out, std::ptrdiff_t stride) {
+void render_costs(const TileSource& store, const Costs& c, CellRect rect, std::span<T> out, std::ptrdiff_t stride) {
   const T never_seen = static_cast<T>(c.of(0, 0, 1, 0));
   int cost[kCells];  // apart from the output, which as bytes might be anything
   if (store.layout().planes_are_masses && store.layout().paradox < 0) {
@@ -205,25 +204,29 @@ std::uint64_t two(float low, float high) noexcept {
 
 }  // namespace
 
-CellState read_cell(const TileStore& store, CellIndex c) noexcept {
-  const Tile* tile = store.find(tile_of(c.x, c.y));
-  if (tile == nullptr) return {};
+CellIndex cell_of(double x_m, double y_m, double cell_m) noexcept {
+  return {static_cast<std::int64_t>(std::floor(x_m / cell_m)), static_cast<std::int64_t>(std::floor(y_m / cell_m))};
+}
+
+CellState read_cell(const TileSource& store, CellIndex c) noexcept {
+  const float* cells = store.cells_of(tile_of(c.x, c.y));
+  if (cells == nullptr) return {};
   const int x = static_cast<int>(c.x & 63), y = static_cast<int>(c.y & 63);
   alignas(64) float m[4 * kCells];
-  store.layout().read_out(tile->cells.get() + store.cell_offset(x & ~3, y & ~3), store.planes(), 1, m);
+  store.layout().read_out(cells + store.cell_offset(x & ~3, y & ~3), store.planes(), 1, m);
   const float* p = m + (y % kMicro) * kMicro + x % kMicro;
   CellState out{{p[0], p[kCells], p[2 * kCells], p[3 * kCells]}};
-  add_history(store, *tile, x, y, out);
+  add_history(store, cells, x, y, out);
   return out;
 }
 
-CellRect occupied_bounds(const TileStore& store) {
+CellRect occupied_bounds(const TileSource& store) {
   constexpr auto kMax = std::numeric_limits<std::int64_t>::max(), kMin = std::numeric_limits<std::int64_t>::min();
   std::int64_t x0 = kMax, x1 = kMin, y0 = kMax, y1 = kMin;
   Strip strip;
-  for (const auto& [at, tile] : store.tiles()) {
+  for (const auto& [at, cells] : store.in_order()) {
     for (int y = 0; y < kSide; ++y) {
-      if (y % kMicro == 0) strip.read(store, tile, y);
+      if (y % kMicro == 0) strip.read(store, cells, y);
       for (int x = 0; x < kSide; ++x) {
         if (vacuous(strip.at(x, y))) continue;
         x0 = std::min(x0, at.x * kSide + x), x1 = std::max(x1, at.x * kSide + x);
@@ -235,8 +238,8 @@ CellRect occupied_bounds(const TileStore& store) {
   return {x0, y0, x1 - x0 + 1, y1 - y0 + 1};
 }
 
-void render_layer(const TileStore& store, Layer layer, const ReadOutParams& params, CellRect rect, std::span<float> out,
-                  std::ptrdiff_t stride) {
+void render_layer(const TileSource& store, Layer layer, const ReadOutParams& params, CellRect rect,
+                  std::span<float> out, std::ptrdiff_t stride) {
   constexpr float kUnknown[kCells] = {1};
   float never_seen[kCells];
   layer_of(layer, params, {kZeros, kZeros, kUnknown, kZeros, kZeros, kZeros, kZeros}, never_seen);
@@ -250,34 +253,34 @@ std::uint8_t cost_of(const Costmap& c, const Mass& m) noexcept {
   return static_cast<std::uint8_t>(costs(c).of(m.e, m.o, m.u, m.c));
 }
 
-void render_costmap(const TileStore& store, const Costmap& c, CellRect rect, std::span<std::int8_t> out,
+void render_costmap(const TileSource& store, const Costmap& c, CellRect rect, std::span<std::int8_t> out,
                     std::ptrdiff_t stride) {
   require_ordered(c);
   render_costs(store, occupancy(c), rect, out, stride);
 }
-void render_costmap(const TileStore& store, const Costmap& c, CellRect rect, std::span<std::uint8_t> out,
+void render_costmap(const TileSource& store, const Costmap& c, CellRect rect, std::span<std::uint8_t> out,
                     std::ptrdiff_t stride) {
   require_ordered(c);
   render_costs(store, costs(c), rect, out, stride);
 }
 
-std::uint64_t hash_cells(const TileStore& store) {
+std::uint64_t hash_cells(const TileSource& store) {
   std::uint64_t h = 0x45564947524944ull;  // "EVIGRID"
-  const auto& tiles = store.tiles();
+  const std::vector<TileRef> tiles = store.in_order();
   std::vector<Strip> strips;
   for (auto band = tiles.begin(); band != tiles.end();) {
     auto band_end = band;
-    while (band_end != tiles.end() && band_end->first.y == band->first.y) ++band_end;
+    while (band_end != tiles.end() && band_end->at.y == band->at.y) ++band_end;
     strips.resize(static_cast<std::size_t>(std::distance(band, band_end)));
     for (int y = 0; y < kSide; ++y) {
       auto strip = strips.begin();
       for (auto it = band; it != band_end; ++it, ++strip) {
-        if (y % kMicro == 0) strip->read(store, it->second, y);
+        if (y % kMicro == 0) strip->read(store, it->cells, y);
         for (int x = 0; x < kSide; ++x) {
           const Mass m = strip->at(x, y);
           if (vacuous(m)) continue;
-          h = mix(h, static_cast<std::uint64_t>(it->first.x * kSide + x));
-          h = mix(h, static_cast<std::uint64_t>(it->first.y * kSide + y));
+          h = mix(h, static_cast<std::uint64_t>(it->at.x * kSide + x));
+          h = mix(h, static_cast<std::uint64_t>(it->at.y * kSide + y));
           h = mix(h, two(m.e, m.o));
           h = mix(h, two(m.u, m.c));  // c: 0 unless the rule keeps one
         }

@@ -5,19 +5,22 @@
 #include <span>
 
 #include "evigrid/map.hpp"
-#include "grid/tile_store.hpp"
+#include "grid/tile_source.hpp"
 
 namespace evigrid {
+
+CellIndex cell_of(double x_m, double y_m, double cell_m) noexcept;
 
 struct CellState {
   Mass mass;
   float conflict = 0, con = 0, last_conflict = 0;
 };
-CellState read_cell(const TileStore&, CellIndex) noexcept;
-CellRect occupied_bounds(const TileStore&);
-void render_layer(const TileStore&, Layer, const ReadOutParams&, CellRect, std::span<float> out, std::ptrdiff_t stride);
-void render_costmap(const TileStore&, const Costmap&, CellRect, std::span<std::int8_t> out, std::ptrdiff_t stride);
-void render_costmap(const TileStore&, const Costmap&, CellRect, std::span<std::uint8_t> out, std::ptrdiff_t stride);
-std::uint64_t hash_cells(const TileStore&);
+CellState read_cell(const TileSource&, CellIndex) noexcept;
+CellRect occupied_bounds(const TileSource&);
+void render_layer(const TileSource&, Layer, const ReadOutParams&, CellRect, std::span<float> out,
+                  std::ptrdiff_t stride);
+void render_costmap(const TileSource&, const Costmap&, CellRect, std::span<std::int8_t> out, std::ptrdiff_t stride);
+void render_costmap(const TileSource&, const Costmap&, CellRect, std::span<std::uint8_t> out, std::ptrdiff_t stride);
+std::uint64_t hash_cells(const TileSource&);
 
 }  // namespace evigrid

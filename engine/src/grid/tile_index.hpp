@@ -2,6 +2,7 @@
 // From a tile's coordinates to the tile: open addressing over squares of 4 × 4 tiles, so that the tiles about one robot
 // are found in a few neighbouring lines of memory however large the map is.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstddef>
@@ -34,6 +35,14 @@ class TileTable {
     Square& s = square_of({at.y >> 2, at.x >> 2});
     s.tiles[place(at)] = tile;
   }
+  void erase(TileIndex at) noexcept {
+    if (squares_.empty()) return;
+    const TileIndex square{at.y >> 2, at.x >> 2};
+    for (std::size_t i = hash(square) & mask_; squares_[i].used; i = (i + 1) & mask_) {
+      if (squares_[i].at == square)
+        squares_[i].tiles[place(at)] = nullptr;  // an empty square goes when the table grows
+    }
+  }
   void clear() noexcept {
     squares_.clear();
     used_ = mask_ = 0;
@@ -61,13 +70,19 @@ class TileTable {
     }
     return squares_[i];
   }
+  /// Room for twice what is left: a window that moves on leaves empty squares behind.
   void grow() {
-    std::vector<Square> old(squares_.empty() ? 16 : 2 * squares_.size());
+    const auto kept = [](const Square& s) {
+      return std::any_of(s.tiles.begin(), s.tiles.end(), [](const Tile* t) { return t != nullptr; });
+    };
+    std::size_t size = 16;
+    while (size < 4 * (static_cast<std::size_t>(std::count_if(squares_.begin(), squares_.end(), kept)) + 1)) size *= 2;
+    std::vector<Square> old(size);
     old.swap(squares_);
     mask_ = squares_.size() - 1;
     used_ = 0;
     for (const Square& s : old) {
-      if (s.used) square_of(s.at).tiles = s.tiles;
+      if (kept(s)) square_of(s.at).tiles = s.tiles;
     }
   }
   std::vector<Square> squares_;

@@ -1,31 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "grid/tile_store.hpp"
 
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
 namespace evigrid {
 
 TileStore::TileStore(CellLayout layout, std::size_t cap_bytes)
-    : layout_(std::move(layout)),
-      planes_(static_cast<int>(layout_.planes.size())),
+    : TileSource(std::make_shared<const CellLayout>(std::move(layout))),
       cap_bytes_(cap_bytes),
-      memory_(tile_bytes()) {}
+      ages_(std::make_shared<TileAges>(tile_bytes())) {}
 
-std::size_t TileStore::tile_bytes() const noexcept {
-  return static_cast<std::size_t>(kernels::kTileSide * kernels::kTileSide * planes_) * sizeof(float);
-}
+TileStore::~TileStore() { clear(); }
 
 void TileStore::clear() noexcept {
+  for (auto& [at, tile] : tiles_) ages_->retire(tile.buffer);
   tiles_.clear();
   table_.clear();
-  memory_.clear();
+  watch(false);
+}
+
+std::vector<TileRef> TileStore::in_order() const {
+  std::vector<TileRef> out;
+  out.reserve(tiles_.size());
+  for (const auto& [at, tile] : tiles_) out.push_back({at, tile.cells});
+  return out;
 }
 
 void TileStore::reserve(std::size_t more) const {
-  if ((size() + more) * tile_bytes() > cap_bytes_) {
-    throw std::length_error("map.memory_cap_bytes: " + std::to_string(size() + more) + " tiles of " +
-                            std::to_string(tile_bytes()) + " bytes do not fit under " + std::to_string(cap_bytes_));
+  if (more == 0) return;
+  const std::size_t all = ages_->in_use() + more;
+  if (all * tile_bytes() > cap_bytes_) {
+    throw std::length_error("map.memory_cap_bytes: " + std::to_string(all) + " tiles of " +
+                            std::to_string(tile_bytes()) + " bytes" +
+                            (ages_->any_view() ? ", those that views hold among them," : "") + " do not fit under " +
+                            std::to_string(cap_bytes_));
   }
 }
 
@@ -35,20 +45,65 @@ Tile& TileStore::get_or_make(TileIndex at) {
   if (made) {
     tile.index = at;
     try {
-      tile.cells.reset(memory_.take());
+      tile.buffer = ages_->make();
+      tile.cells = tile.buffer->cells();
       table_.insert(at, &tile);
+      note(at);
     } catch (...) {
+      table_.erase(at);
+      if (tile.buffer != nullptr) ages_->retire(tile.buffer);
       tiles_.erase(it);
       throw;
     }
-    float* p = tile.cells.get();
-    for (int micro = 0; micro < kernels::kMicrosPerTile; ++micro) {
-      for (const Plane& plane : layout_.planes) {
-        for (int i = 0; i < kernels::kMicroCells; ++i) *p++ = plane.vacuous;
-      }
-    }
+    set_vacuous(tile);
   }
   return tile;
+}
+
+/// Nobody asks for long, or there is no memory: who asks then begins anew.
+void TileStore::note(TileIndex at) noexcept {
+  constexpr std::size_t kMost = 1 << 16;
+  if (!watched_) return;
+  if (moved_.size() >= kMost) return watch(false);
+  try {
+    moved_.push_back(at);
+  } catch (...) {
+    watch(false);
+  }
+}
+
+void TileStore::set_vacuous(Tile& tile) noexcept {
+  float* p = tile.cells;
+  for (int micro = 0; micro < kernels::kMicrosPerTile; ++micro) {
+    for (const Plane& plane : layout().planes) {
+      for (int i = 0; i < kernels::kMicroCells; ++i) *p++ = plane.vacuous;
+    }
+  }
+}
+
+void TileStore::erase(TileIndex at) noexcept {
+  const auto it = tiles_.find(at);
+  if (it == tiles_.end()) return;
+  ages_->retire(it->second.buffer);
+  table_.erase(at);
+  tiles_.erase(it);
+  note(at);
+}
+
+void TileStore::replace(Tile& tile, TileBuffer* copy) noexcept {
+  ages_->retire(tile.buffer);
+  tile.buffer = copy;
+  tile.cells = copy->cells();
+  note(tile.index);
+}
+
+void TileStore::own(Tile& tile) {
+  if (!seen(tile)) return;
+  reserve(1);
+  TileBuffer* const copy = make_buffer();
+  std::memcpy(copy->cells(), tile.cells, tile_bytes());
+  copy->marks = tile.buffer->marks;
+  replace(tile, copy);
 }
 
 }  // namespace evigrid

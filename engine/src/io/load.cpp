@@ -126,7 +126,7 @@ std::vector<io::Entry> read_directory(Source& in, const Opened& file) {
 }
 
 struct Batch {
-  const TileStore& store;
+  const TileSource& store;
   std::span<const io::Entry> entries;
   std::vector<Tile*> tiles;
   std::span<const std::byte> bytes;  // of all entries
@@ -138,14 +138,13 @@ void decode_one(Batch& b, std::size_t i, std::size_t worker) noexcept {
   const io::Entry& e = b.entries[i];
   const auto block = b.bytes.subspan(static_cast<std::size_t>(e.offset - b.entries.front().offset), e.bytes);
   b.wrong[i] =
-      io::crc32(block) != e.crc ? "has a wrong checksum" : b.decoders[worker].decode(b.store, block, *b.tiles[i]);
+      io::crc32(block) != e.crc ? "has a wrong checksum" : b.decoders[worker].decode(b.store, block, b.tiles[i]->cells);
 }
 
 /// A tile that was read is new to every consumer.
 void note_all(ChangeLog& changes, Tile& tile) {
-  changes.enroll(tile);
-  tile.change->mark(~BlockMask{0}, changes.next());
-  changes.moved(*tile.change);
+  tile.buffer->marks.mark(~BlockMask{0}, changes.next());
+  changes.moved(tile);
 }
 
 void read_tiles(Source& in, std::span<const io::Entry> entries, Map& map) {

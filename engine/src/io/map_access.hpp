@@ -4,17 +4,20 @@
 #include <cstdint>
 
 #include "evigrid/map.hpp"
+#include "evigrid/view.hpp"
 #include "grid/change_log.hpp"
 #include "grid/tile_store.hpp"
 
 namespace evigrid {
 
 struct MapAccess {
-  static const TileStore& store(const Map&) noexcept;
+  static const TileSource& source(const Map&) noexcept;
+  static const TileSource& source(const MapView&) noexcept;
   static TileStore& store(Map&) noexcept;
   static ChangeLog& changes(Map&) noexcept;
   static std::int64_t& last_stamp_ns(Map&) noexcept;  ///< the smallest number before the first scan
   static std::int64_t last_stamp_ns(const Map&) noexcept;
+  static std::int64_t last_stamp_ns(const MapView&) noexcept;
   static Executor& executor(const Map&) noexcept;
 };
 

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <functional>
@@ -23,8 +24,8 @@ using Sink = std::function<void(std::span<const std::byte>)>;
 constexpr std::size_t kBatch = 256;  // tiles held compressed at a time
 
 struct Batch {
-  const TileStore& store;
-  std::vector<const Tile*> tiles;
+  const TileSource& store;
+  std::span<const TileRef> tiles;
   std::vector<std::vector<std::byte>> blocks;
   std::vector<io::TileEncoder>& encoders;
 };
@@ -36,7 +37,7 @@ void encode(Batch& batch, Executor& executor) {
       [](void* context, std::int64_t index, int worker) {
         Batch& b = *static_cast<Batch*>(context);
         const auto i = static_cast<std::size_t>(index);
-        b.blocks[i] = b.encoders[static_cast<std::size_t>(worker)].encode(b.store, *b.tiles[i]);
+        b.blocks[i] = b.encoders[static_cast<std::size_t>(worker)].encode(b.store, b.tiles[i].cells);
       },
       &batch);
   for (const auto& block : batch.blocks) {
@@ -44,7 +45,9 @@ void encode(Batch& batch, Executor& executor) {
   }
 }
 
-std::string header_of(const Map& map) {
+/// A map or a view of one.
+template <class MapOrView>
+std::string header_of(const MapOrView& map) {
   MapFileInfo info;
   info.maths_version = kMathsVersion;
   info.params = map.params();
@@ -56,7 +59,8 @@ std::string header_of(const Map& map) {
   return io::header_text(info);
 }
 
-void write_map(const Map& map, std::string_view name, const Sink& sink) {
+template <class MapOrView>
+void write_map(const MapOrView& map, Executor& executor, std::string_view name, const Sink& sink) {
   const std::string text = header_of(map);
   if (text.size() > io::kMaxHeaderBytes) throw MapFileError(name, "too many sensors for a map file");
   const auto text_bytes = std::as_bytes(std::span(text));
@@ -69,20 +73,19 @@ void write_map(const Map& map, std::string_view name, const Sink& sink) {
   sink(head.get());
   sink(text_bytes);
 
-  const TileStore& store = MapAccess::store(map);
-  Executor& executor = MapAccess::executor(map);
+  const TileSource& store = MapAccess::source(map);
+  const std::vector<TileRef> tiles = store.in_order();
   std::vector<io::TileEncoder> encoders(static_cast<std::size_t>(executor.concurrency()));
   Batch batch{store, {}, {}, encoders};
   std::uint64_t offset = io::kHeadBytes + text.size();
   io::Bytes directory;
-  for (auto it = store.tiles().begin(); it != store.tiles().end();) {
-    batch.tiles.clear();
-    for (; it != store.tiles().end() && batch.tiles.size() < kBatch; ++it) batch.tiles.push_back(&it->second);
+  for (std::size_t first = 0; first < tiles.size(); first += kBatch) {
+    batch.tiles = std::span(tiles).subspan(first, std::min(kBatch, tiles.size() - first));
     encode(batch, executor);
     for (std::size_t i = 0; i < batch.tiles.size(); ++i) {
       const auto& block = batch.blocks[i];
-      directory.put(batch.tiles[i]->index.x);
-      directory.put(batch.tiles[i]->index.y);
+      directory.put(batch.tiles[i].at.x);
+      directory.put(batch.tiles[i].at.y);
       directory.put(offset);
       directory.put(static_cast<std::uint32_t>(block.size()));
       directory.put(io::crc32(block));
@@ -93,7 +96,7 @@ void write_map(const Map& map, std::string_view name, const Sink& sink) {
   sink(directory.get());
   io::Bytes tail;
   tail.put(offset);
-  tail.put(static_cast<std::uint64_t>(store.size()));
+  tail.put(static_cast<std::uint64_t>(tiles.size()));
   tail.put(offset + directory.get().size() + io::kTailBytes);
   tail.put(io::crc32(directory.get()));
   tail.put(io::crc32(tail.get()));
@@ -147,19 +150,33 @@ class NewFile {
   bool done_ = false;
 };
 
-}  // namespace
-
-void save(const Map& map, const std::filesystem::path& path) {
+template <class MapOrView>
+void save_to(const MapOrView& map, Executor& executor, const std::filesystem::path& path) {
   NewFile file(path);
-  write_map(map, path.string(), [&](std::span<const std::byte> bytes) { file.write(bytes); });
+  write_map(map, executor, path.string(), [&](std::span<const std::byte> bytes) { file.write(bytes); });
   file.commit();
 }
 
-void save(const Map& map, std::ostream& out) {
-  write_map(map, "map", [&](std::span<const std::byte> bytes) {
+template <class MapOrView>
+void save_to(const MapOrView& map, Executor& executor, std::ostream& out) {
+  write_map(map, executor, "map", [&](std::span<const std::byte> bytes) {
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (!out) throw MapFileError("map", "the stream cannot be written");
   });
 }
+
+std::shared_ptr<Executor> or_serial(Executor* executor) {
+  if (executor == nullptr) return make_serial_executor();
+  return {std::shared_ptr<Executor>{}, executor};
+}
+
+}  // namespace
+
+void save(const Map& map, const std::filesystem::path& path) { save_to(map, MapAccess::executor(map), path); }
+void save(const Map& map, std::ostream& out) { save_to(map, MapAccess::executor(map), out); }
+void save(const MapView& view, const std::filesystem::path& path, Executor* executor) {
+  save_to(view, *or_serial(executor), path);
+}
+void save(const MapView& view, std::ostream& out, Executor* executor) { save_to(view, *or_serial(executor), out); }
 
 }  // namespace evigrid

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "grid/tile_store.hpp"
+#include "grid/tile_source.hpp"
 
 struct ZSTD_CCtx_s;
 struct ZSTD_DCtx_s;
@@ -20,7 +20,7 @@ class TileEncoder {  // one a worker
   ~TileEncoder();
   TileEncoder(TileEncoder&&) noexcept = default;
   /// Empty when zstd fails, which only a lack of memory can make it do.
-  std::vector<std::byte> encode(const TileStore&, const Tile&) noexcept;
+  std::vector<std::byte> encode(const TileSource&, const float* cells) noexcept;
 
  private:
   struct Free {
@@ -36,7 +36,7 @@ class TileDecoder {  // one a worker
   ~TileDecoder();
   TileDecoder(TileDecoder&&) noexcept = default;
   /// nullptr, or what is wrong with the block.
-  const char* decode(const TileStore&, std::span<const std::byte> block, Tile&) noexcept;
+  const char* decode(const TileSource&, std::span<const std::byte> block, float* cells) noexcept;
 
  private:
   struct Free {

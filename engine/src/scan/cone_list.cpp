@@ -65,7 +65,7 @@ BlockMask ConeList::add(const ConeFootprint& f, const ConeFootprints::Cuts* band
     float *const xs = zone.x.data() + had, *const ys = zone.y.data() + had;
     for (std::size_t i = 0; i < add; ++i) {
       const int m = micro[z][i];
-      cells[i] = tile.cells.get() + static_cast<std::size_t>(m) * step;
+      cells[i] = tile.cells + static_cast<std::size_t>(m) * step;
       xs[i] = x0 + static_cast<float>(4 * (m & (kSide - 1)));
       ys[i] = y0 + static_cast<float>(4 * (m / kSide));
     }
