@@ -168,11 +168,16 @@ PaperResult run_hughes1992(const PaperOptions& o) {
 
   std::vector<PaperFile> pictures;
   std::optional<Score> agrees;
+  double conflict = 0;
   const SceneTruth truth = scene_truth(room.scene, room.scene.map.cell_m);
   const StationOptions options{.threads = o.threads};
   const raycast::Point first = place(scenes::drive(room.scene.trajectory).front());
   const Experiment main = experiment(room, first, count, options, [&](const Map& map, const StationRun& run) {
-    if (truth.grid) agrees = score(render_layers(map, 512), *truth.grid);
+    if (truth.grid) {
+      const Layers layers = render_layers(map, 512);
+      agrees = score(layers, *truth.grid);
+      conflict = mean_conflict(layers);
+    }
     const std::string file = fmt::format("run1_move{}.png", run.moves());
     pictures.push_back({file, png(panels(map, run, fmt::format("run 1 after {} moves", run.moves()), file))});
   });
@@ -231,9 +236,7 @@ PaperResult run_hughes1992(const PaperOptions& o) {
   page.heading("The map as it grows");
   page.paragraph(
       "m(empty), m(occupied), m(unknown), the darker the surer, and the grey composite; the line is the robot's way.");
-  page.begin_row();
-  for (const PaperFile& p : pictures) page.picture(p.bytes, p.name);
-  page.end_row();
+  for (const PaperFile& p : pictures) page.picture(p.bytes, p.name);  // wide already
   if (paper_room) {
     page.heading("The room, or the behaviour?");
     page.paragraph(
@@ -256,6 +259,11 @@ PaperResult run_hughes1992(const PaperOptions& o) {
     page.table(
         {"room", "runs within 0.457 m", "farthest end, m", "most moves", "settled", "fewest cells", "as published"},
         rows);
+  }
+  if (agrees) {
+    page.heading("How the map of run 1 agrees with the room");
+    const MetricTable metrics = metric_table({{"run 1", *agrees, conflict}});
+    page.table(metrics.head, metrics.rows);
   }
   page.heading("What the text leaves open");
   page.list(
