@@ -43,6 +43,7 @@ Json make_report(const Log& log, const Fused& f, const MappingOptions& o, const 
   r["scans"] = log.scans.size();
   r["rule"] = name(f.map.params().rule);
   r["models"] = f.models;
+  if (!f.map.kernel_note().empty()) r["kernel_note"] = f.map.kernel_note();
   r["cell_m"] = f.map.params().cell_m;
   if (f.map.params().decay_s > 0) r["decay_s"] = f.map.params().decay_s;
   r["size_cells"] = {layers.rect.width, layers.rect.height};

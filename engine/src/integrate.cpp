@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "device/device_map.hpp"
 #include "kernels/row/portable_math.hpp"
 #include "rule_kernels.hpp"
 #include "scan/copy_tiles.hpp"
@@ -160,6 +161,37 @@ void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
       &all_of);
 }
 
+/// Every region by its task, regions in parallel.
+void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule, int threads) {
+  s.stats.assign(s.plan.regions(), {});
+  if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
+  Batch batch{p, s, rule};
+  p.executor.run(
+      static_cast<std::int64_t>(s.plan.regions()),
+      [](void* context, std::int64_t index, int worker) {
+        const Batch& b = *static_cast<const Batch*>(context);
+        RegionTask task(b, b.s.workers[static_cast<std::size_t>(worker)]);
+        task.run(b.s.plan.region(static_cast<std::size_t>(index)));
+        b.s.stats[static_cast<std::size_t>(index)] = task.stats;
+        b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += task.tiles;
+      },
+      &batch);
+}
+
+/// False where there is no device, and when it fails: the map then goes on without it, and says why.
+bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) {
+  if (p.device == nullptr || !*p.device) return false;
+  try {
+    s.stats.push_back((*p.device)->fuse(p, s, rule));
+    return true;
+  } catch (const kernels::DeviceError& failed) {
+    *p.note = std::string(failed.what()) + "; the map goes on on the processor";
+    p.device->reset();
+    for (auto& [at, tile] : p.store.tiles()) tile.on_device = nullptr;
+    return false;
+  }
+}
+
 }  // namespace
 
 Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
@@ -178,19 +210,9 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   const int threads = p.executor.concurrency();
   bin(s.footprints, p.table, p.store, threads, s.plan);
   copy_what_views_see(s.plan, p.store, p.executor);
-  s.stats.assign(s.plan.regions(), {});
-  if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
-  Batch batch{p, s, args_of(p.params, p.undo)};
-  p.executor.run(
-      static_cast<std::int64_t>(s.plan.regions()),
-      [](void* context, std::int64_t index, int worker) {
-        const Batch& b = *static_cast<const Batch*>(context);
-        RegionTask task(b, b.s.workers[static_cast<std::size_t>(worker)]);
-        task.run(b.s.plan.region(static_cast<std::size_t>(index)));
-        b.s.stats[static_cast<std::size_t>(index)] = task.stats;
-        b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += task.tiles;
-      },
-      &batch);
+  const kernels::RuleArgs rule = args_of(p.params, p.undo);
+  s.stats.clear();
+  if (!fused_by_device(p, s, rule)) fuse_regions(p, s, rule, threads);
   for (const kernels::Stats& region : s.stats) {
     report.cells_updated += region.cells;
     report.total_conflicts += region.total_conflicts;

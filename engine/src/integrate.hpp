@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The algorithm box: one batch of scans into the grid.
 #pragma once
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "evigrid/map.hpp"
@@ -10,6 +12,8 @@
 #include "scan/compiled.hpp"
 
 namespace evigrid {
+
+class DeviceMap;  // device/device_map.hpp
 
 struct Pipeline {
   const MapParams& params;
@@ -20,6 +24,8 @@ struct Pipeline {
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
   bool undo = false;  // takes the scans back
+  std::unique_ptr<DeviceMap>* device = nullptr;  // null, or what fuses instead of the table; dropped when it fails,
+  std::string* note = nullptr;                   // and why
 };
 
 struct Scratch;  // scratch.hpp

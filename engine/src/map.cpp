@@ -4,10 +4,13 @@
 
 #include <stdexcept>
 
+#include "device/device_map.hpp"
+#include "evigrid/combine.hpp"
 #include "evigrid/view.hpp"
 #include "grid/readout.hpp"
 #include "grid/tile_catalog.hpp"
 #include "grid/view_state.hpp"
+#include "combine_blocks.hpp"
 #include "integrate.hpp"
 #include "io/map_access.hpp"
 #include "params/table.hpp"
@@ -26,19 +29,33 @@ struct Map::Impl {
   std::shared_ptr<const std::vector<Sensor>> sensors = std::make_shared<const std::vector<Sensor>>();  // views keep it
   std::vector<std::uint64_t> tiles_per_worker;
   Scratch scratch;
+  std::unique_ptr<DeviceMap> device;  // kernel cuda alone
+  std::string kernel_note;
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
       : params(p),
-        table(kernels::find_table(name(p.kernel))),
+        table(&table_of(p.kernel)),
         executor(e ? std::move(e) : std::shared_ptr<Executor>(make_tbb_executor())),
         store(cell_layout(p, *table), p.memory_cap_bytes),
-        tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
+        tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {
+    if (p.kernel != Kernel::cuda) return;
+    try {
+      device = std::make_unique<DeviceMap>(kernels::make_cuda_device());
+    } catch (const kernels::DeviceError& failed) {
+      kernel_note = std::string(failed.what()) + "; the map is made on the processor";
+    }
+  }
+
+  Pipeline pipeline(bool undo) {
+    return {params, *table, compiled, store, changes, *executor, tiles_per_worker, undo, &device, &kernel_note};
+  }
 };
 
 Map::Map(const MapParams& params, std::shared_ptr<Executor> executor) {
   if (const auto errors = check(params); !errors.empty()) throw std::invalid_argument(describe(errors));
-  if (kernels::find_table(name(params.kernel)) == nullptr) {
-    throw std::invalid_argument("map.kernel " + std::string(name(params.kernel)) + " cannot run on this processor");
+  if (!kernel_available(params.kernel)) {
+    throw std::invalid_argument("map.kernel " + std::string(name(params.kernel)) + " cannot run here" +
+                                (params.kernel == Kernel::cuda ? ": " + kernels::why_no_cuda() : ""));
   }
   impl_ = std::make_unique<Impl>(params, std::move(executor));
 }
@@ -61,9 +78,7 @@ SensorId Map::add(const Sensor& sensor) {
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
 Report Map::integrate(std::span<const Scan> scans) {
   Impl& m = *impl_;
-  return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker}, m.scratch,
-      scans);
+  return evigrid::integrate(m.pipeline(false), m.scratch, scans);
 }
 
 Report Map::undo(const Scan& scan) { return undo(std::span<const Scan>(&scan, 1)); }
@@ -73,9 +88,7 @@ Report Map::undo(std::span<const Scan> scans) {
     throw std::logic_error("undo: a map of the rule " + std::string(name(m.params.rule)) +
                            " cannot take a scan back: its cells are no sums");
   }
-  return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, true},
-      m.scratch, scans);
+  return evigrid::integrate(m.pipeline(true), m.scratch, scans);
 }
 
 void Map::advance_to(std::int64_t stamp_ns) noexcept {
@@ -111,11 +124,13 @@ MapView Map::view() {
 
 void Map::clear() {
   impl_->store.clear();
+  if (impl_->device) impl_->device->forget();
   impl_->changes.clear();
 }
 const MapParams& Map::params() const noexcept { return impl_->params; }
 std::span<const Sensor> Map::sensors() const noexcept { return *impl_->sensors; }
-std::string_view Map::kernel_name() const noexcept { return impl_->table->name; }
+std::string_view Map::kernel_name() const noexcept { return impl_->device ? "cuda" : impl_->table->name; }
+std::string_view Map::kernel_note() const noexcept { return impl_->kernel_note; }
 std::string_view Map::executor_name() const noexcept { return impl_->executor->name(); }
 std::span<const std::uint64_t> Map::tiles_per_worker() const noexcept { return impl_->tiles_per_worker; }
 std::size_t Map::tiles() const noexcept { return impl_->store.size(); }
@@ -126,6 +141,8 @@ TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
 std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->store.now_ns; }
 std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->store.now_ns; }
+void MapAccess::use_device(Map& m, std::unique_ptr<DeviceMap> device) { m.impl_->device = std::move(device); }
+DeviceMap* MapAccess::device(Map& m) noexcept { return m.impl_->device.get(); }
 Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }
 
 }  // namespace evigrid

@@ -16,7 +16,8 @@ struct Named {
   std::string_view name;
 };
 constexpr auto kKernelNames = std::to_array<Named<Kernel>>(
-    {{Kernel::automatic, "auto"}, {Kernel::scalar, "scalar"}, {Kernel::avx2, "avx2"}, {Kernel::avx512, "avx512"}});
+    {{Kernel::automatic, "auto"}, {Kernel::scalar, "scalar"}, {Kernel::avx2, "avx2"}, {Kernel::avx512, "avx512"},
+     {Kernel::cuda, "cuda"}});
 constexpr auto kLikelihoodNames =
     std::to_array<Named<Likelihood>>({{Likelihood::betp, "betp"}, {Likelihood::plp, "plp"}});
 constexpr auto kRefusalNames = std::to_array<Named<Refusal>>({{Refusal::not_a_number, "not_a_number"},
