@@ -76,11 +76,11 @@ namespace {
 class Emulated final : public Device {
  public:
   Emulated() {
-    device::fill_dempster_and_yager_here(table_);
-    device::fill_pcr_here(table_);
-    device::fill_pcr14_here(table_);
-    device::fill_states_here(table_);
-    device::fill_dense(dense_);
+    emulated::fill_dempster_and_yager_here(table_);
+    emulated::fill_pcr_here(table_);
+    emulated::fill_pcr14_here(table_);
+    emulated::fill_states_here(table_);
+    emulated::fill_dense(dense_);
   }
   [[nodiscard]] std::string name() const override { return "emulated device"; }
   float* take(std::size_t bytes) override { return memory_.emplace_back(bytes / sizeof(float)).data(); }
@@ -111,8 +111,8 @@ class Emulated final : public Device {
   }
 
  private:
-  device::DeviceTable table_;
-  device::DenseTable<std::uint64_t (*)(const DensePlanes&, std::size_t)> dense_;
+  emulated::DeviceTable table_;
+  emulated::DenseTable<std::uint64_t (*)(const DensePlanes&, std::size_t)> dense_;
   std::deque<std::vector<float>> memory_;
   std::vector<std::uint64_t> reached_;
   std::vector<float> cells_;

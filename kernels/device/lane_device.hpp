@@ -6,11 +6,12 @@
 
 #ifdef __CUDACC__
 #define EVIGRID_FN __host__ __device__ __forceinline__
-#else
+#define EVIGRID_CELL_BEGIN namespace evigrid::kernels::device {
+#else  // a namespace of its own: both may be in one program
 #define EVIGRID_FN inline
+#define EVIGRID_CELL_BEGIN namespace evigrid::kernels::emulated {
 #endif
 #define EVIGRID_LAMBDA
-#define EVIGRID_CELL_BEGIN namespace evigrid::kernels::device {
 #define EVIGRID_CELL_END }
 
 #include "kernels/cell/lane_scalar.hpp"
