@@ -10,6 +10,7 @@
 #include "rule_kernels.hpp"
 #include "scan/copy_tiles.hpp"
 #include "scan/gate.hpp"
+#include "scan/shield.hpp"
 #include "scratch.hpp"
 
 namespace evigrid {
@@ -150,8 +151,9 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   }
   compile_all(s.footprints, p);
   const int threads = p.executor.concurrency();
-  bin(s.footprints, p.table, p.store, threads, s.plan);
+  bin(s.footprints, p.table, p.store, p.admission, threads, s.plan);
   copy_what_views_see(s.plan, p.store, p.executor);
+  const Shield shield(s.plan, p.admission, p.store);
   s.stats.assign(s.plan.regions(), {});
   if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
   Batch batch{p, s, args_of(p.params, p.undo)};
@@ -165,6 +167,7 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
         b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += task.tiles;
       },
       &batch);
+  shield.restore();
   for (const kernels::Stats& region : s.stats) {
     report.cells_updated += region.cells;
     report.total_conflicts += region.total_conflicts;

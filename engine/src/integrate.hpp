@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evigrid/map.hpp"
+#include "grid/admission.hpp"
 #include "grid/change_log.hpp"
 #include "grid/tile_store.hpp"
 #include "scan/compiled.hpp"
@@ -20,6 +21,7 @@ struct Pipeline {
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
   std::int64_t& last_stamp_ns;
+  const Admission& admission;
   bool undo = false;  // takes the scans back
 };
 

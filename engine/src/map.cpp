@@ -11,6 +11,8 @@
 #include "grid/view_state.hpp"
 #include "integrate.hpp"
 #include "io/map_access.hpp"
+#include "life/edit.hpp"
+#include "life/known_areas.hpp"
 #include "params/table.hpp"
 #include "scratch.hpp"
 
@@ -28,6 +30,7 @@ struct Map::Impl {
   std::vector<std::uint64_t> tiles_per_worker;
   Scratch scratch;
   std::int64_t last_stamp_ns = std::numeric_limits<std::int64_t>::min();
+  Admission admission;
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
       : params(p),
@@ -35,6 +38,7 @@ struct Map::Impl {
         executor(e ? std::move(e) : std::shared_ptr<Executor>(make_tbb_executor())),
         store(cell_layout(p, *table), p.memory_cap_bytes),
         tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
+  [[nodiscard]] Grid grid() noexcept { return {params, store, changes}; }
 };
 
 Map::Map(const MapParams& params, std::shared_ptr<Executor> executor) {
@@ -63,9 +67,9 @@ SensorId Map::add(const Sensor& sensor) {
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
 Report Map::integrate(std::span<const Scan> scans) {
   Impl& m = *impl_;
-  return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns}, m.scratch,
-      scans);
+  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker,
+                             m.last_stamp_ns, m.admission},
+                            m.scratch, scans);
 }
 
 Report Map::undo(const Scan& scan) { return undo(std::span<const Scan>(&scan, 1)); }
@@ -75,9 +79,9 @@ Report Map::undo(std::span<const Scan> scans) {
     throw std::logic_error("undo: a map of the rule " + std::string(name(m.params.rule)) +
                            " cannot take a scan back: its cells are no sums");
   }
-  return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns, true},
-      m.scratch, scans);
+  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker,
+                             m.last_stamp_ns, m.admission, true},
+                            m.scratch, scans);
 }
 
 Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }
@@ -112,6 +116,26 @@ void Map::clear() {
   impl_->changes.clear();
   impl_->last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 }
+void Map::clear(CellRect rect) { forget(impl_->grid(), rect); }
+void Map::set_window(CellRect window) {
+  impl_->admission.window.reset();
+  if (window.empty()) return;
+  impl_->admission.window = tiles_of(window);
+  drop_outside(impl_->grid(), *impl_->admission.window);
+}
+void Map::protect(CellRect area) {
+  if (!area.empty()) impl_->admission.guarded.push_back(area);
+}
+void Map::unprotect() { impl_->admission.guarded.clear(); }
+std::span<const CellRect> Map::protected_areas() const noexcept { return impl_->admission.guarded; }
+void Map::write(CellRect rect, std::span<const Mass> masses, std::ptrdiff_t stride) {
+  write_masses(impl_->grid(), rect, masses, stride);
+}
+void Map::write(CellRect rect, std::span<const std::int8_t> occupancy, std::ptrdiff_t stride, double certainty) {
+  write_occupancy(impl_->grid(), rect, occupancy, stride, certainty);
+}
+void Map::write(std::span<const Point2> polygon, const Mass& mass) { write_polygon(impl_->grid(), polygon, mass); }
+
 const MapParams& Map::params() const noexcept { return impl_->params; }
 std::span<const Sensor> Map::sensors() const noexcept { return *impl_->sensors; }
 std::string_view Map::kernel_name() const noexcept { return impl_->table->name; }
@@ -123,6 +147,7 @@ std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
 const TileSource& MapAccess::source(const Map& m) noexcept { return m.impl_->store; }
 TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
+Admission& MapAccess::admission(Map& m) noexcept { return m.impl_->admission; }
 std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->last_stamp_ns; }
 std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->last_stamp_ns; }
 Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }

@@ -7,6 +7,7 @@
 #include "evigrid/io.hpp"
 #include "evigrid/joint.hpp"
 #include "evigrid/map.hpp"
+#include "evigrid/merge.hpp"
 #include "evigrid/readout.hpp"
 #include "evigrid/scan.hpp"
 #include "evigrid/sensor.hpp"

@@ -67,6 +67,7 @@ CellLayout cell_layout(const MapParams& p, const KernelTable& table) {
   CellLayout out;
   out.planes = planes_of(p);
   int next = row_of(p.rule).count;
+  out.state = next;
   out.planes_are_masses = out.planes[0].name == "e";
   if (out.planes_are_masses && next > 3) out.paradox = 3;
   if (p.keep_conflict) out.conflict = next++;

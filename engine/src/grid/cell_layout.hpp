@@ -17,6 +17,7 @@ struct Plane {
 
 struct CellLayout {
   std::vector<Plane> planes;
+  int state = 3;  // the first of them are the rule's, the others history
   int paradox = -1, conflict = -1, con = -1, last_conflict = -1;  // which plane; −1 is none
   bool planes_are_masses = true;                                  // the first three are e, o, u as they are read
   void (*read_out)(const float* cells, int planes, int micros, float* out) = nullptr;
