@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "evigrid/scenes/truth.hpp"
+#include "score/rerender.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -44,8 +46,8 @@ Layers layers(CellRect rect, const std::vector<Masses>& cells) {
 }
 
 Layers map() {
-  return layers({0, 0, 4, 3}, {kUnknown, kOccupied, kEmpty, kEmpty,        //
-                               kUnknown, kEmpty, kOccupied, kUnknown,      //
+  return layers({0, 0, 4, 3}, {kUnknown, kOccupied, kEmpty, kEmpty,    //
+                               kUnknown, kEmpty, kOccupied, kUnknown,  //
                                kUnknown, kOccupied, kEmpty, kUnknown});
 }
 
@@ -118,6 +120,33 @@ TEST(Score, SolidCalledEmptyIsAMistakeOnlyAwayFromFreeSpaceWhenNear) {
   const Score s = score(layers({0, 0, 1, 1}, {kEmpty}), t);
   EXPECT_DOUBLE_EQ(s.strict.mistaken_rate, 1);
   EXPECT_DOUBLE_EQ(s.near.mistaken_rate, 1);  // two cells from free space
+}
+
+TEST(Rerender, ComparesEachReadingWithTheNearestOccupiedCell) {
+  std::vector<Masses> row(10, kEmpty);
+  row[7] = kOccupied;  // its centre at x = 0.75 m, its near side at 0.7 m
+  const Layers map = layers({0, 0, 10, 1}, row);
+  Log log;
+  Sensor sonar;
+  sonar.model = Model::hughes1992;
+  sonar.min_range_m = 0.1, sonar.max_range_m = 2, sonar.aperture_rad = 0.3;
+  Sensor behind = sonar;
+  behind.T_robot_sensor.yaw_rad = std::numbers::pi;
+  Sensor laser;
+  laser.model = Model::beam;
+  laser.min_range_m = 0.1, laser.max_range_m = 2, laser.beams = 2;
+  laser.first_beam_rad = 0, laser.beam_step_rad = std::numbers::pi / 2;
+  for (const Sensor& s : {sonar, behind, laser}) log.sensors.push_back({"", s});
+  log.ranges_m = {0.70F, 0.50F, 1.0F, INFINITY, 0.65F, 1.0F};
+  log.readings = {{0, 0, 1}, {0, 1, 1}, {1, 2, 1}, {0, 3, 1}, {2, 4, 2}};
+  log.scans = {{0, {0.05, 0.05, 0}, 0, 5}};
+  const Rerendered r = rerender(map, log);
+  EXPECT_EQ(r.readings, 5u);  // all but the one without echo
+  EXPECT_EQ(r.silent, 2u);    // the sonar that looks back and the beam to the side
+  // 0.70 of 0.70 and 0.50 of 0.70 by the cone; 0.65 of 0.65 by the beam, up to its step of a quarter cell.
+  EXPECT_NEAR(r.median_m, 0, 0.026);
+  EXPECT_NEAR(r.mean_m, 0.2 / 3, 0.01);
+  EXPECT_TRUE(std::isnan(rerender(layers({0, 0, 1, 1}, {kEmpty}), log).mean_m));
 }
 
 }  // namespace

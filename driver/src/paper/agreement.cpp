@@ -30,10 +30,25 @@ std::vector<Finding> agreement(const std::string& which, const Score& score, con
 
 MetricTable metric_table(const std::vector<ScoredMap>& maps) {
   MetricTable out;
-  out.head = {"map",          "precision",      "recall",     "mistaken",      "precision, near",
-              "recall, near", "mistaken, near", "free known", "log-loss BetP", "log-loss PlP",
-              "Brier BetP",   "Brier PlP",      "map score",  "entropy, bit",  "m(unknown)",
-              "conflict"};
+  out.head = {"map",
+              "precision",
+              "recall",
+              "mistaken",
+              "precision, near",
+              "recall, near",
+              "mistaken, near",
+              "free known",
+              "log-loss BetP",
+              "log-loss PlP",
+              "Brier BetP",
+              "Brier PlP",
+              "map score",
+              "entropy, bit",
+              "m(unknown)",
+              "conflict",
+              "re-rendered: median, m",
+              "mean, m",
+              "no echo predicted"};
   for (const ScoredMap& m : maps) {
     const Score& s = m.score;
     std::vector<std::string> row{m.name};
@@ -41,6 +56,14 @@ MetricTable metric_table(const std::vector<ScoredMap>& maps) {
                            s.near.mistaken_rate, s.known_share, s.log_loss_betp, s.log_loss_plp, s.brier_betp,
                            s.brier_plp, s.map_score, s.entropy, s.ignorance, m.mean_conflict}) {
       row.push_back(fmt::format("{:.3f}", v));
+    }
+    if (m.rerendered) {
+      const Rerendered& r = *m.rerendered;
+      row.push_back(fmt::format("{:.3f}", r.median_m));
+      row.push_back(fmt::format("{:.3f}", r.mean_m));
+      row.push_back(fmt::format("{} of {}", r.silent, r.readings));
+    } else {
+      row.resize(row.size() + 3);
     }
     out.rows.push_back(std::move(row));
   }

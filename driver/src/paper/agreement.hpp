@@ -2,10 +2,12 @@
 // How the map of a paper's run agrees with the true scene, as findings with floors and as a table. score/ says what
 // each figure means.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "paper/finding.hpp"
+#include "score/rerender.hpp"
 #include "score/score.hpp"
 
 namespace evigrid::driver {
@@ -23,6 +25,7 @@ struct ScoredMap {
   std::string name;
   Score score;
   double mean_conflict = 0;  ///< running sum of k, mean over the cells seen
+  std::optional<Rerendered> rerendered{};
 };
 /// Every metric of every map: head and rows for Page::table.
 struct MetricTable {

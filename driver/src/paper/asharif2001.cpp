@@ -423,10 +423,11 @@ PaperResult run_asharif2001(const PaperOptions& o) {
               "ways through obstacles", "ways where the robot touches"},
              swept.rows);
   page.heading("How the maps agree with the room");
-  const MetricTable metrics = metric_table({{"Dempster", dempster.score, mean_conflict(dempster.layers)},
-                                            {"Bayes", bayes.score, mean_conflict(bayes.layers)},
-                                            {"Dempster, lasers as beams", beam_d.score, mean_conflict(beam_d.layers)},
-                                            {"Bayes, lasers as beams", beam_b.score, mean_conflict(beam_b.layers)}});
+  const MetricTable metrics = metric_table(
+      {{"Dempster", dempster.score, mean_conflict(dempster.layers), rerender(dempster.layers, oriolo)},
+       {"Bayes", bayes.score, mean_conflict(bayes.layers), rerender(bayes.layers, oriolo)},
+       {"Dempster, lasers as beams", beam_d.score, mean_conflict(beam_d.layers), rerender(beam_d.layers, log)},
+       {"Bayes, lasers as beams", beam_b.score, mean_conflict(beam_b.layers), rerender(beam_b.layers, log)}});
   page.table(metrics.head, metrics.rows);
   page.heading("What the text leaves open");
   page.list({"The obstacles' places: ours; the paper has a drawing of them. All seven ends of the routes are free.",

@@ -17,6 +17,7 @@ table { border-collapse: collapse; margin: 1rem 0; font-size: .92rem; } th, td {
 th { background: #f3f5f8; font-weight: 600; } td.number { text-align: right; font-variant-numeric: tabular-nums; }
 .met { color: #17703a; font-weight: 600; white-space: nowrap; } .missed { color: #b3261e; font-weight: 600; white-space: nowrap; }
 figure { margin: 1rem 0; } figure img, figure svg { max-width: 100%; height: auto; border: 1px solid #d9dee5; } figcaption { color: #5a6675; font-size: .88rem; }
+.wide { overflow-x: auto; }
 .row { display: flex; flex-wrap: wrap; gap: 1rem; } .row figure { flex: 1 1 18rem; margin: .5rem 0; }
 )";
 
@@ -102,7 +103,7 @@ void Page::findings(const std::vector<Finding>& all) {
 }
 
 void Page::table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows) {
-  body_ += "<table>\n<tr>";
+  body_ += "<div class=\"wide\"><table>\n<tr>";
   for (const std::string& cell : head) body_ += fmt::format("<th>{}</th>", escaped(cell));
   body_ += "</tr>\n";
   for (const auto& row : rows) {
@@ -113,7 +114,7 @@ void Page::table(const std::vector<std::string>& head, const std::vector<std::ve
     }
     body_ += "</tr>\n";
   }
-  body_ += "</table>\n";
+  body_ += "</table></div>\n";
 }
 
 void Page::picture(std::span<const std::byte> png_bytes, std::string_view caption) {
