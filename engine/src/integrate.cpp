@@ -142,12 +142,14 @@ void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
 Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   Report report;
   s.footprints.clear();
+  s.scan_end.clear();
   for (const Scan& scan : scans) {  // gate: compile what can be used, count the rest
     if (!p.undo) {
       if (scan.stamp_ns < p.last_stamp_ns) ++report.stamps_backwards;
       p.last_stamp_ns = scan.stamp_ns;
     }
     gate_scan(scan, p.sensors, p.params, s.footprints, report);
+    s.scan_end.push_back(s.footprints.size());
   }
   compile_all(s.footprints, p);
   const int threads = p.executor.concurrency();

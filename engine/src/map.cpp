@@ -38,6 +38,9 @@ struct Map::Impl {
         executor(e ? std::move(e) : std::shared_ptr<Executor>(make_tbb_executor())),
         store(cell_layout(p, *table), p.memory_cap_bytes),
         tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
+  [[nodiscard]] Pipeline pipeline() noexcept {
+    return {params, *table, compiled, store, changes, *executor, tiles_per_worker, last_stamp_ns, admission};
+  }
   [[nodiscard]] Grid grid() noexcept { return {params, store, changes}; }
 };
 
@@ -66,10 +69,7 @@ SensorId Map::add(const Sensor& sensor) {
 
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
 Report Map::integrate(std::span<const Scan> scans) {
-  Impl& m = *impl_;
-  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker,
-                             m.last_stamp_ns, m.admission},
-                            m.scratch, scans);
+  return evigrid::integrate(impl_->pipeline(), impl_->scratch, scans);
 }
 
 Report Map::undo(const Scan& scan) { return undo(std::span<const Scan>(&scan, 1)); }
@@ -77,11 +77,11 @@ Report Map::undo(std::span<const Scan> scans) {
   Impl& m = *impl_;
   if (!state_is_sum(m.params.rule)) {
     throw std::logic_error("undo: a map of the rule " + std::string(name(m.params.rule)) +
-                           " cannot take a scan back: its cells are no sums");
+                           " cannot take a scan back: its cells are no sums (a RevisableMap can)");
   }
-  return evigrid::integrate({m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker,
-                             m.last_stamp_ns, m.admission, true},
-                            m.scratch, scans);
+  Pipeline back = m.pipeline();
+  back.undo = true;
+  return evigrid::integrate(back, m.scratch, scans);
 }
 
 Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }
@@ -150,6 +150,9 @@ ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
 Admission& MapAccess::admission(Map& m) noexcept { return m.impl_->admission; }
 std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->last_stamp_ns; }
 std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->last_stamp_ns; }
+Scratch& MapAccess::scratch(Map& m) noexcept { return m.impl_->scratch; }
+const Scratch& MapAccess::scratch(const Map& m) noexcept { return m.impl_->scratch; }
+Pipeline MapAccess::pipeline(Map& m) noexcept { return m.impl_->pipeline(); }
 Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }
 
 }  // namespace evigrid

@@ -30,6 +30,9 @@ class KeptScan {
   KeptScan& operator=(KeptScan&&) noexcept = default;
   /// As the map takes it; refers to this object.
   [[nodiscard]] Scan scan() const noexcept { return {stamp_ns, T_map_robot, readings_}; }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return ranges_m_.size() * sizeof(float) + readings_.size() * sizeof(Reading);
+  }
   std::int64_t stamp_ns = 0;
   Pose2 T_map_robot{};
 
@@ -65,6 +68,9 @@ struct JournalContents {
 /// before it. A record that is cut short at the end of the file is no damage: it is dropped and counted.
 [[nodiscard]] JournalContents read_journal(const std::filesystem::path& path);
 [[nodiscard]] JournalContents read_journal(std::span<const std::byte>, std::string_view name = "journal");
+
+/// Whether the journal is of maps like this one; kernel and memory cap belong to the machine and may differ.
+[[nodiscard]] bool fits(const JournalContents&, const MapParams&, std::span<const Sensor>);
 
 /// The writer. One thread at a time. Every call returns when the record is with the operating system.
 class Journal {

@@ -11,6 +11,9 @@
 
 namespace evigrid {
 
+struct Pipeline;
+struct Scratch;
+
 struct MapAccess {
   static const TileSource& source(const Map&) noexcept;
   static const TileSource& source(const MapView&) noexcept;
@@ -20,6 +23,9 @@ struct MapAccess {
   static std::int64_t& last_stamp_ns(Map&) noexcept;  ///< the smallest number before the first scan
   static std::int64_t last_stamp_ns(const Map&) noexcept;
   static std::int64_t last_stamp_ns(const MapView&) noexcept;
+  static Scratch& scratch(Map&) noexcept;
+  static const Scratch& scratch(const Map&) noexcept;
+  static Pipeline pipeline(Map&) noexcept;
   static Executor& executor(const Map&) noexcept;
 };
 

@@ -55,15 +55,6 @@ BlockMask blocks_in(const CellRect& part) noexcept {
   return out;
 }
 
-bool is_vacuous(const TileStore& store, const Tile& tile) noexcept {
-  bool all = true;
-  each_cell(store, tile, {0, 0, kSide, kSide}, [&](const float* cell, auto, auto) {
-    for (std::size_t p = 0; p < store.layout().planes.size(); ++p)
-      all = all && cell[p * kCells] == store.layout().planes[p].vacuous;
-  });
-  return all;
-}
-
 /// Room for the copies of those that a view sees, before any of them is changed.
 void own_all(TileStore& store, const std::vector<Tile*>& tiles) {
   store.reserve(static_cast<std::size_t>(
@@ -85,7 +76,7 @@ void forget(const Grid& g, CellRect rect) {
       for (std::size_t p = 0; p < g.store.layout().planes.size(); ++p)
         cell[p * kCells] = g.store.layout().planes[p].vacuous;
     });
-    if (is_vacuous(g.store, *t)) {
+    if (g.store.is_vacuous(*t)) {
       gone.push_back(t);
       continue;
     }
