@@ -2,7 +2,6 @@
 // The public face: parameters checked, kernels chosen once, everything else handed on.
 #include "evigrid/map.hpp"
 
-#include <limits>
 #include <stdexcept>
 
 #include "evigrid/view.hpp"
@@ -27,7 +26,6 @@ struct Map::Impl {
   std::shared_ptr<const std::vector<Sensor>> sensors = std::make_shared<const std::vector<Sensor>>();  // views keep it
   std::vector<std::uint64_t> tiles_per_worker;
   Scratch scratch;
-  std::int64_t last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
       : params(p),
@@ -64,7 +62,7 @@ Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>
 Report Map::integrate(std::span<const Scan> scans) {
   Impl& m = *impl_;
   return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns}, m.scratch,
+      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker}, m.scratch,
       scans);
 }
 
@@ -76,8 +74,12 @@ Report Map::undo(std::span<const Scan> scans) {
                            " cannot take a scan back: its cells are no sums");
   }
   return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, m.last_stamp_ns, true},
+      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, true},
       m.scratch, scans);
+}
+
+void Map::advance_to(std::int64_t stamp_ns) noexcept {
+  if (impl_->params.decay_s > 0 && stamp_ns > impl_->store.now_ns) impl_->store.now_ns = stamp_ns;
 }
 
 Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }
@@ -104,13 +106,12 @@ MapView Map::view() {
   Impl& m = *impl_;
   auto catalog = m.cataloguer.bring_up_to_date(m.store, m.changes);
   return MapView(std::make_shared<const ViewState>(
-      m.store, std::move(catalog), ViewState::Facts{m.params, m.sensors, m.last_stamp_ns, m.changes.losses()}));
+      m.store, std::move(catalog), ViewState::Facts{m.params, m.sensors, m.changes.losses()}));
 }
 
 void Map::clear() {
   impl_->store.clear();
   impl_->changes.clear();
-  impl_->last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 }
 const MapParams& Map::params() const noexcept { return impl_->params; }
 std::span<const Sensor> Map::sensors() const noexcept { return *impl_->sensors; }
@@ -123,8 +124,8 @@ std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
 const TileSource& MapAccess::source(const Map& m) noexcept { return m.impl_->store; }
 TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
-std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->last_stamp_ns; }
-std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->last_stamp_ns; }
+std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->store.now_ns; }
+std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->store.now_ns; }
 Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }
 
 }  // namespace evigrid

@@ -44,6 +44,12 @@ struct MapParams {
   /// Filter of false reflections (Li et al. 2014): of three neighbours of a ring, in the order of their bearings, the
   /// third reading stays when |d3 − d2| < |d1 − d2| + this, m. Below 0: off.
   double false_reflection_m = -1;
+  /// Forgetting: τ, s. A cell keeps exp(−Δt/τ) of its masses, Δt since the last reading that told it something, and
+  /// what it gives up becomes unknown (Shafer's discount, by time). 0: nothing is forgotten. Sensors may have a τ of
+  /// their own (Sensor::decay_s). Cells are read as they are at the last stamp; rules whose cells hold masses only.
+  /// Costs three planes. Discounts in order: the reading's (contextual, then reliability), the cell's by time, then
+  /// they are combined.
+  double decay_s = 0;
 };
 [[nodiscard]] std::vector<ParamError> check(const MapParams&);
 
@@ -92,6 +98,11 @@ class Map {
   /// conflict keep what was met on the way, and the last stamp stays.
   Report undo(const Scan&);
   Report undo(std::span<const Scan>);
+
+  /// Lets time pass without a scan: a map that forgets is read as it is then. Earlier times, and maps that do not
+  /// forget, stay as they are. No change in the sense of changes(): whoever draws a forgetting map draws all that is in
+  /// sight.
+  void advance_to(std::int64_t stamp_ns) noexcept;
 
   [[nodiscard]] Mass mass(CellIndex) const noexcept;            ///< vacuous where nothing was seen
   [[nodiscard]] float conflict(CellIndex) const noexcept;       ///< running sum of k, 0 without the plane
