@@ -89,6 +89,7 @@ Json map_facts(const std::string& path) {
   out["maths_version"] = info.maths_version;
   out["rule"] = name(info.params.rule);
   out["cell_m"] = c;
+  if (info.params.decay_s > 0) out["decay_s"] = info.params.decay_s;
   out["size_cells"] = {box.width, box.height};
   out["origin_cells"] = {box.x, box.y};
   out["extent_m"] = {{"x", {static_cast<double>(box.x) * c, static_cast<double>(box.x + box.width) * c}},

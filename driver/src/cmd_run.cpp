@@ -65,7 +65,7 @@ void run_scene(Args args, bool rule_given) {
   if (!rule_given && !input.scene.map.rule.empty())
     o.rule = input.scene.map.rule;  // the command line outranks the scene
   if (!o.cell_m) o.cell_m = input.scene.map.cell_m;
-  use_filter(input.scene, o);
+  use_map_options(input.scene, o);
   const Plan plan = make_plan(o);
   OutDir out(o.out_dir);
   if (!o.json.empty() && o.json != "-") require_writable(o.json);

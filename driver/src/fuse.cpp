@@ -35,6 +35,7 @@ Plan make_plan(const MappingOptions& o) {
   if (!o.model.empty()) parse_model(o.model);
   (void)parse_settings(o.params);
   plan.params.false_reflection_m = parse_filter(o.filter);
+  if (o.decay_s) plan.params.decay_s = *o.decay_s;
   if (o.cell_m) plan.params.cell_m = *o.cell_m;
   const auto likelihood = likelihood_from_name(o.bayes_likelihood);
   if (!likelihood)

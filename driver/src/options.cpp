@@ -94,7 +94,8 @@ std::string describe_outputs() {
          "map, for `evigrid show`, "
          "`evigrid\n"
          "info` and other programs); report.json (what was used, what was refused and why).\n\n"
-         "--layers draws numbers with a colour bar (betp to costmap; con and last_conflict make the map keep them, all does "
+         "--layers draws numbers with a colour bar (betp to costmap; con and last_conflict make the map keep them, all "
+         "does "
          "not),\n"
          "the grey composite and panels of Hughes & Murphy 1992, and Bel(occupied) as a surface.\n\n"
          "--pgm-mode: trinary 0 occupied (BetP > 0.65), 254 free (BetP < 0.196), 205 unknown; scale: grey = 255 (1 - "
@@ -113,6 +114,9 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
                      "sensor model: " + model_names() + " (default: beam for lasers, li2014 for sonars)");
   command.add_option("--param", o.params,
                      "MODEL.NAME=VALUE: a parameter of a sensor model, repeatable; `evigrid model --help` lists them");
+  command.add_option("--decay", o.decay_s,
+                     "s: forgetting; a cell keeps exp(-t/SECONDS) of its masses t after the last reading that told it "
+                     "something (rules whose cells are masses; 0: never)");
   command.add_option("--filter", o.filter,
                      "drop readings before fusing: false_reflection[=METRES], by their neighbours in a ring (Li et al. "
                      "2014; default 0.1), or none");
@@ -120,9 +124,10 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("--max-range", o.max_range_m, "m: lasers clear up to it, sonar readings beyond it are refused");
   command.add_option("--reliability", o.reliability,
                      "Shafer discount in (0, 1] (default: 1 for lasers, 0.9 for sonars)");
-  command.add_option("--contextual", o.contextual,
-                     "IF_EMPTY,IF_OCCUPIED: reliability where a cell is empty (kept of m(occupied)) and where it is "
-                     "occupied (kept of m(empty)), each in (0, 1]")
+  command
+      .add_option("--contextual", o.contextual,
+                  "IF_EMPTY,IF_OCCUPIED: reliability where a cell is empty (kept of m(occupied)) and where it is "
+                  "occupied (kept of m(empty)), each in (0, 1]")
       ->delimiter(',')
       ->expected(2);
   command.add_flag("--clear-no-return", o.clear_no_return, "lasers: a beam without return clears up to --max-range");

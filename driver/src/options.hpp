@@ -19,6 +19,7 @@ struct MappingOptions {
   std::optional<double> cell_m, max_range_m, reliability;
   std::vector<std::string> params;      ///< of sensor models: MODEL.NAME=VALUE
   bool params_of_other_models = false;  ///< compare gives each row those of all rows
+  std::optional<double> decay_s;        ///< empty: the scene's, or never
   std::string filter;                   ///< of readings; empty: the scene's, or none
   std::vector<double> contextual;  ///< empty, or reliability if empty and if occupied
   bool clear_no_return = false;

@@ -30,6 +30,7 @@ Sensor common(const Spec& spec) {
   s.min_range_m = spec.min_range_m;
   s.max_range_m = spec.max_range_m;
   s.reliability = spec.reliability;
+  s.decay_s = spec.decay_s;
   for (const auto& [model, values] : spec.parameters) {
     for (const auto& [field, value] : values) set_model_param(s, parse_model(model), field, value);
   }
@@ -134,9 +135,10 @@ SceneInput open_scene(const std::string& name_or_path) {
   }
 }
 
-void use_filter(const scenes::Scene& scene, MappingOptions& options) {
+void use_map_options(const scenes::Scene& scene, MappingOptions& options) {
   if (options.filter.empty() && scene.map.false_reflection_m >= 0)
     options.filter = fmt::format("false_reflection={}", scene.map.false_reflection_m);
+  if (!options.decay_s && scene.map.decay_s > 0) options.decay_s = scene.map.decay_s;
 }
 
 Simulated simulate(const scenes::Scene& scene, const CastOptions& options) {

@@ -28,7 +28,7 @@ std::vector<LogSensor> declared_sensors(const scenes::Scene& scene);
 
 struct MappingOptions;
 /// The filter that the scene names, unless the command line names one.
-void use_filter(const scenes::Scene& scene, MappingOptions& options);
+void use_map_options(const scenes::Scene& scene, MappingOptions& options);
 
 struct CastOptions {
   int threads = 0;     ///< 0: as many as the machine has; the readings are the same

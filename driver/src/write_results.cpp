@@ -44,6 +44,7 @@ Json make_report(const Log& log, const Fused& f, const MappingOptions& o, const 
   r["rule"] = name(f.map.params().rule);
   r["models"] = f.models;
   r["cell_m"] = f.map.params().cell_m;
+  if (f.map.params().decay_s > 0) r["decay_s"] = f.map.params().decay_s;
   r["size_cells"] = {layers.rect.width, layers.rect.height};
   r["origin_cells"] = {layers.rect.x, layers.rect.y};
   r["map_hash"] = fmt::format("{:016x}", f.map.hash());

@@ -48,7 +48,7 @@ class RegionTask {
       const Footprint& f = b_.s.footprints[reaches[i].footprint];
       if (f.fan) {
         fuse_cones();
-        for (; i < end; ++i) fuse_fan(*f.fan, b_.s.plan.tiles[reaches[i].tile]);
+        for (; i < end; ++i) fuse_fan(f, b_.s.plan.tiles[reaches[i].tile]);
       } else {
         list_cone(f, reaches.subspan(i, end - i));
         i = end;
@@ -86,13 +86,16 @@ class RegionTask {
       args.planes = b_.p.store.planes();
       args.conflict_plane = b_.p.params.keep_conflict && !b_.p.undo;
       args.rule = b_.rule;
-      b_.p.table.fuse_cone[rule_][c.footprint->cone_model](args, c.footprint->cone, stats);
+      const auto fuse = [&] { b_.p.table.fuse_cone[rule_][c.footprint->cone_model](args, c.footprint->cone, stats); };
+      fuse_forgetting(*c.footprint, fuse, [&](auto&& hold) {
+        for (const kernels::ZoneMicros& zone : args.zone) std::for_each(zone.cells, zone.cells + zone.count, hold);
+      });
     }
     s_.pending.clear();
     s_.list.clear();
   }
-  void fuse_fan(const kernels::Fan& fan, TileWork& w) {
-    const kernels::FanReading& q = fan.reading;
+  void fuse_fan(const Footprint& f, TileWork& w) {
+    const kernels::FanReading& q = f.fan->reading;
     kernels::TileArgs args;
     args.cells = w.tile->cells;
     args.planes = b_.p.store.planes();
@@ -104,10 +107,31 @@ class RegionTask {
     b_.p.table.select_fan(q, args.x0, args.y0, micros);
     args.fan = &micros;
     const std::uint64_t before = stats.cells;
-    b_.p.table.fuse_fan[rule_](args, q, stats);
+    fuse_forgetting(
+        f, [&] { b_.p.table.fuse_fan[rule_](args, q, stats); },
+        [&](auto&& hold) {
+          const auto each = [&](float micro) {
+            hold(args.cells + static_cast<std::ptrdiff_t>(micro) * kernels::kMicroCells * args.planes);
+          };
+          std::for_each(micros.empty, micros.empty + micros.empty_count, each);
+          std::for_each(micros.near, micros.near + micros.near_count, each);
+          std::for_each(micros.edge, micros.edge + (micros.edge_count - micros.near_count), each);
+        });
     if (stats.cells == before) return;
     w.reached |= blocks_of(micros.empty, micros.empty_count) | blocks_of(micros.near, micros.near_count) |
                  blocks_of(micros.edge, micros.edge_count - micros.near_count);
+  }
+
+  /// One reading. In maps that forget, each micro-tile that it may touch is aged before; `each_micro` calls what it is
+  /// given with each of them.
+  template <class Fuse, class EachMicro>
+  void fuse_forgetting(const Footprint& f, Fuse&& fuse, EachMicro&& each_micro) {
+    if (b_.p.params.decay_s <= 0) return fuse();
+    const double own = f.sensor->sensor.decay_s;
+    each_micro([&](float* micro) { s_.decayed.hold(micro); });
+    s_.decayed.age(b_.p.store, f.stamp_ns);
+    fuse();
+    s_.decayed.settle(b_.p.store, {f.stamp_ns, static_cast<float>(own > 0 ? own : b_.p.params.decay_s)});
   }
 
   const Batch& b_;
@@ -145,8 +169,10 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   s.scan_end.clear();
   for (const Scan& scan : scans) {  // gate: compile what can be used, count the rest
     if (!p.undo) {
-      if (scan.stamp_ns < p.last_stamp_ns) ++report.stamps_backwards;
-      p.last_stamp_ns = scan.stamp_ns;
+      std::int64_t& now_ns = p.store.now_ns;
+      const bool backwards = scan.stamp_ns < now_ns;
+      if (backwards) ++report.stamps_backwards;
+      if (!backwards || p.params.decay_s <= 0) now_ns = scan.stamp_ns;  // what is forgotten does not come back
     }
     gate_scan(scan, p.sensors, p.params, s.footprints, report);
     s.scan_end.push_back(s.footprints.size());

@@ -20,7 +20,6 @@ struct Pipeline {
   ChangeLog& changes;
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
-  std::int64_t& last_stamp_ns;
   const Admission& admission;
   bool undo = false;  // takes the scans back
 };

@@ -2,7 +2,6 @@
 // The public face: parameters checked, kernels chosen once, everything else handed on.
 #include "evigrid/map.hpp"
 
-#include <limits>
 #include <stdexcept>
 
 #include "evigrid/view.hpp"
@@ -29,7 +28,6 @@ struct Map::Impl {
   std::shared_ptr<const std::vector<Sensor>> sensors = std::make_shared<const std::vector<Sensor>>();  // views keep it
   std::vector<std::uint64_t> tiles_per_worker;
   Scratch scratch;
-  std::int64_t last_stamp_ns = std::numeric_limits<std::int64_t>::min();
   Admission admission;
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
@@ -39,7 +37,7 @@ struct Map::Impl {
         store(cell_layout(p, *table), p.memory_cap_bytes),
         tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
   [[nodiscard]] Pipeline pipeline() noexcept {
-    return {params, *table, compiled, store, changes, *executor, tiles_per_worker, last_stamp_ns, admission};
+    return {params, *table, compiled, store, changes, *executor, tiles_per_worker, admission};
   }
   [[nodiscard]] Grid grid() noexcept { return {params, store, changes}; }
 };
@@ -84,6 +82,10 @@ Report Map::undo(std::span<const Scan> scans) {
   return evigrid::integrate(back, m.scratch, scans);
 }
 
+void Map::advance_to(std::int64_t stamp_ns) noexcept {
+  if (impl_->params.decay_s > 0 && stamp_ns > impl_->store.now_ns) impl_->store.now_ns = stamp_ns;
+}
+
 Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }
 float Map::conflict(CellIndex c) const noexcept { return read_cell(impl_->store, c).conflict; }
 float Map::con(CellIndex c) const noexcept { return read_cell(impl_->store, c).con; }
@@ -108,13 +110,12 @@ MapView Map::view() {
   Impl& m = *impl_;
   auto catalog = m.cataloguer.bring_up_to_date(m.store, m.changes);
   return MapView(std::make_shared<const ViewState>(
-      m.store, std::move(catalog), ViewState::Facts{m.params, m.sensors, m.last_stamp_ns, m.changes.losses()}));
+      m.store, std::move(catalog), ViewState::Facts{m.params, m.sensors, m.changes.losses()}));
 }
 
 void Map::clear() {
   impl_->store.clear();
   impl_->changes.clear();
-  impl_->last_stamp_ns = std::numeric_limits<std::int64_t>::min();
 }
 void Map::clear(CellRect rect) { forget(impl_->grid(), rect); }
 void Map::set_window(CellRect window) {
@@ -124,7 +125,9 @@ void Map::set_window(CellRect window) {
   drop_outside(impl_->grid(), *impl_->admission.window);
 }
 void Map::protect(CellRect area) {
-  if (!area.empty()) impl_->admission.guarded.push_back(area);
+  if (area.empty()) return;
+  freeze(impl_->grid(), area);
+  impl_->admission.guarded.push_back(area);
 }
 void Map::unprotect() { impl_->admission.guarded.clear(); }
 std::span<const CellRect> Map::protected_areas() const noexcept { return impl_->admission.guarded; }
@@ -148,11 +151,11 @@ const TileSource& MapAccess::source(const Map& m) noexcept { return m.impl_->sto
 TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
 Admission& MapAccess::admission(Map& m) noexcept { return m.impl_->admission; }
-std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->last_stamp_ns; }
-std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->last_stamp_ns; }
 Scratch& MapAccess::scratch(Map& m) noexcept { return m.impl_->scratch; }
 const Scratch& MapAccess::scratch(const Map& m) noexcept { return m.impl_->scratch; }
 Pipeline MapAccess::pipeline(Map& m) noexcept { return m.impl_->pipeline(); }
+std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->store.now_ns; }
+std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->store.now_ns; }
 Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }
 
 }  // namespace evigrid

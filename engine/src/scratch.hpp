@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "grid/decay.hpp"
 #include "scan/bin.hpp"
 
 namespace evigrid {
@@ -18,6 +19,7 @@ struct RegionScratch {
   ConeList list;
   std::vector<PendingCone> pending;
   kernels::FanMicros fan_micros;
+  DecayedUpdate decayed;
 };
 
 struct Scratch {

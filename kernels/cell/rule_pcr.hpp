@@ -88,7 +88,8 @@ struct Pcr5 {
     const V as = c.a * scale(m), bs = c.b * scale(m);
     const V d1 = nonzero(as + m.y), d2 = nonzero(bs + m.x);
     // p/(d1·d2) = a·y/(a + y)
-    const auto p = above(c.a * m.y, cut) * d2, w = above(c.b * m.x, cut) * d1;
+    const auto p = above(c.a * m.y, cut) * d2;  // of a one-sided source one of them is zero by type
+    const auto w = above(c.b * m.x, cut) * d1;
     const V dd = select(q.k > zero, d1 * d2, V(1.0f));  // without conflict no common denominator: see above
     const V e = q.e * dd + (p * as + w * m.x), o = q.o * dd + (p * m.y + w * bs);
     const V r = V(1.0f) / ((e + o) + q.t * dd);

@@ -14,6 +14,7 @@ MapSpec read_map(Table t, const Vocabulary& words) {
   MapSpec map{.cell_m = t.number("cell_m", {1e-3, 100}), .rule = t.text("rule")};
   require_known(t, "rule", map.rule, words.rules);
   if (t.has("false_reflection_m")) map.false_reflection_m = t.number("false_reflection_m", {0, 1000});
+  map.decay_s = t.number_or("decay_s", {0, 1e9}, map.decay_s);
   t.refuse_unknown_keys();
   return map;
 }

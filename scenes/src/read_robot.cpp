@@ -20,6 +20,7 @@ void read_common(Table& t, Sensor& s, bool range_required) {
       range_required ? t.number("max_range_m", kRange_m) : t.number_or("max_range_m", kRange_m, s.max_range_m);
   if (s.max_range_m <= s.min_range_m) t.fail("max_range_m", "must be greater than min_range_m");
   s.reliability = t.number_or("reliability", {0, 1, true}, s.reliability);
+  s.decay_s = t.number_or("decay_s", {0, 1e9}, s.decay_s);
   s.noise.sigma_m = t.number_or("noise_sigma_m", {0, 10}, s.noise.sigma_m);
   s.noise.ratio = t.number_or("noise_ratio", {0, 1}, s.noise.ratio);
 }

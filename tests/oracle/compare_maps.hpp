@@ -65,7 +65,8 @@ class Both {
     Difference d;
     d.cells = reference_.cells().size();
     std::uint64_t in_both = 0;
-    for (const auto& [index, want] : reference_.cells()) {
+    for (const auto& [index, cell] : reference_.cells()) {
+      const ReferenceCell want = reference_.now(cell);
       const evigrid::Mass got = engine_.mass(index);
       const bool held = got.e != 0 || got.o != 0 || got.c != 0;
       d.most_updates = std::max(d.most_updates, want.updates);

@@ -147,6 +147,28 @@ TEST_P(ReferenceCone, ContextualReliabilityAndCon) {
   }
 }
 
+// Forgetting, with sensors of their own τ and scans that come late, reading by reading.
+TEST_P(ReferenceCone, ForgetsByTime) {
+  for (Rule rule :
+       {Rule::dempster, Rule::pcr5, Rule::pcr1, Rule::germ_pcr2, Rule::yager, Rule::dsmh, Rule::conjunctive}) {
+    SCOPED_TRACE(std::string(name(rule)));
+    Both both({.cell_m = 0.1, .rule = rule, .decay_s = 2});
+    Sensor s = sonar(GetParam(), 25), other = s;
+    s.reliability = 0.95, other.reliability = 0.8, other.decay_s = 0.7;
+    const auto a = both.add(s), b = both.add(other);
+    for (int i = 0; i < 30; ++i) {
+      const float range_m = 0.7F + 0.15F * static_cast<float>(i % 9);
+      const evigrid::Reading reading{i % 3 == 0 ? b : a, {&range_m, 1}};
+      const std::int64_t stamp_ns = (i % 7 == 6 ? i - 4 : i) * 133'000'000LL;
+      both.integrate(evigrid::Scan{stamp_ns, {0.05 * i, 0.031 * i, 0.2 * i}, {&reading, 1}});
+    }
+    both.expect_equal_reports();
+    const Difference d = both.difference();
+    expect_within_bounds(d);
+    print(std::string(name(GetParam())) + " forgetting " + std::string(name(rule)), d);
+  }
+}
+
 TEST_P(ReferenceCone, UtmSizedCoordinates) {
   for (double cell_m : {0.1, 0.05}) {
     const Difference d = drive_ring(GetParam(), Rule::pcr5, 25, 0.9, {500000.123, 5000000.456, 1.1}, cell_m, 8);

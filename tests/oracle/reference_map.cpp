@@ -32,7 +32,8 @@ evigrid::SensorId ReferenceMap::add(const Sensor& sensor) {
 void ReferenceMap::integrate(const evigrid::Scan& scan) {
   const auto refuse = [this](Refusal why, std::uint64_t n = 1) { report_.refused[static_cast<std::size_t>(why)] += n; };
   if (scan.stamp_ns < last_stamp_ns_) ++report_.stamps_backwards;
-  last_stamp_ns_ = scan.stamp_ns;
+  stamp_ns_ = scan.stamp_ns;
+  last_stamp_ns_ = params_.decay_s > 0 ? std::max(last_stamp_ns_, scan.stamp_ns) : scan.stamp_ns;
   for (const evigrid::Reading& reading : scan.readings) {
     if (!finite(scan.T_map_robot)) {
       refuse(Refusal::pose_not_finite, reading.ranges_m.size());
@@ -191,11 +192,32 @@ void ReferenceMap::sweep(const Declared& declared, const Pose2& pose, double rad
       if (d_squared > disc || !say(dx, dy, d_squared, source)) continue;
       update(cells_[{x.cell + i, y.cell + j}],
              discount(contextual(source, declared.sensor.reliability_if_empty, declared.sensor.reliability_if_occupied),
-                      declared.sensor.reliability));
+                      declared.sensor.reliability),
+             declared.sensor);
     }
 }
 
-void ReferenceMap::update(ReferenceCell& cell, const Source& source) {
+void ReferenceMap::forget(ReferenceCell& cell, std::int64_t now_ns) const {
+  if (params_.decay_s <= 0 || cell.updates == 0 || now_ns <= cell.stamp_ns) return;
+  const double share = std::exp(-static_cast<double>(now_ns - cell.stamp_ns) / (1e9 * cell.tau_s));
+  cell.u = 1 - share + share * cell.u;
+  for (double* m : {&cell.e, &cell.o, &cell.c}) *m = share * *m < kLeastMass ? 0 : share * *m;
+  for (std::size_t set : {kEmpty, kOccupied, kBoth}) cell.state.m[set] *= share;  // conjunctive, dsmc
+  cell.state.m[kUnknown] = 1 - share + share * cell.state.m[kUnknown];
+}
+
+ReferenceCell ReferenceMap::now(const ReferenceCell& cell) const {
+  ReferenceCell out = cell;
+  forget(out, last_stamp_ns_);
+  return out;
+}
+
+void ReferenceMap::update(ReferenceCell& cell, const Source& source, const evigrid::Sensor& sensor) {
+  forget(cell, stamp_ns_);
+  if (params_.decay_s > 0) {
+    cell.stamp_ns = cell.updates == 0 ? stamp_ns_ : std::max(cell.stamp_ns, stamp_ns_);
+    cell.tau_s = sensor.decay_s > 0 ? sensor.decay_s : params_.decay_s;
+  }
   const auto count = [&](double conflict, bool total) {
     cell.conflict += conflict;
     cell.con -= std::log(std::max(1 - conflict, 1e-12));

@@ -24,6 +24,8 @@ struct ReferenceCell {
   double con = 0, last = 0;   ///< −Σ ln(1 − k), k of the last update
   StateNumbers state;         ///< of the rules whose state is not (e, o, u)
   std::uint64_t updates = 0;  ///< readings that touched the cell
+  std::int64_t stamp_ns = 0;  ///< of the last of them; τ of its sensor (maps that forget)
+  double tau_s = 0;
   [[nodiscard]] bool vacuous() const { return e == 0 && o == 0 && c == 0; }
 };
 
@@ -49,6 +51,8 @@ class ReferenceMap {
   evigrid::SensorId add(const evigrid::Sensor&);
   void integrate(const evigrid::Scan&);
   [[nodiscard]] const ReferenceCells& cells() const { return cells_; }
+  /// A cell as it is at the last stamp.
+  [[nodiscard]] ReferenceCell now(const ReferenceCell&) const;
   [[nodiscard]] const ReferenceReport& report() const { return report_; }
 
  private:
@@ -64,12 +68,14 @@ class ReferenceMap {
   void cone(const Declared&, const evigrid::Pose2&, float range_m);
   void fan(const Declared&, const evigrid::Pose2&, std::span<const float> ranges_m);
   void sweep(const Declared&, const evigrid::Pose2&, double radius_cells, const Say&);
-  void update(ReferenceCell&, const Source&);
+  void update(ReferenceCell&, const Source&, const evigrid::Sensor&);
+  void forget(ReferenceCell&, std::int64_t now_ns) const;
 
   evigrid::MapParams params_;
   std::vector<Declared> sensors_;
   ReferenceCells cells_;
   ReferenceReport report_;
+  std::int64_t stamp_ns_ = 0;  ///< of the scan at hand
   std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
 };
 

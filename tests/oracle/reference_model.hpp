@@ -38,8 +38,8 @@ Source cone_model(const evigrid::Sensor&, const Along&, EdgeAngles, Zone);
 
 /// Shafer's discount.
 Source discount(const Source&, double reliability);
-/// Contextual discounting by its definition: the disjunctive rule with, for each hypothesis, mass β on nothing and 1 − β
-/// on the hypothesis.
+/// Contextual discounting by its definition: the disjunctive rule with, for each hypothesis, mass β on nothing and 1 −
+/// β on the hypothesis.
 Source contextual(const Source&, double reliability_if_empty, double reliability_if_occupied);
 
 }  // namespace oracle

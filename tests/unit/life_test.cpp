@@ -156,6 +156,23 @@ TEST(Life, ProtectedAreasStayAndTheOthersDoNotNotice) {
   }
 }
 
+TEST(Life, WhatIsProtectedOrWrittenIsNotForgotten) {
+  const auto d = testing::drive(Model::li2014, 10, 7);
+  Map map = new_map(*d, {.decay_s = 10}), plain = new_map(*d, {.decay_s = 10});
+  map.integrate(d->scans), plain.integrate(d->scans);
+  const CellRect area{-40, 3, 77, 41};
+  map.advance_to(5'000'000'000), plain.advance_to(5'000'000'000);
+  map.protect(area);
+  EXPECT_EQ(map.hash(), plain.hash());
+  map.write({500, 500, 1, 1}, std::vector<Mass>{{0, 0.5f, 0.5f}}, 1);
+  Map then = new_map(*d, {.decay_s = 10});
+  then.integrate(d->scans);
+  then.advance_to(5'000'000'000);
+  map.advance_to(90'000'000'000), plain.advance_to(90'000'000'000);
+  expect_cells(map, kAll, [&](CellIndex c) { return inside(area, c) ? then.mass(c) : plain.mass(c); });
+  EXPECT_EQ(map.mass({500, 500}).o, 0.5f);
+}
+
 TEST(Life, WrittenMassesAreReadBackUnderEveryRule) {
   std::vector<Mass> masses{{0.5f, 0.25f, 0.25f}, {}, {1, 0, 0}, {0, 0.875f, 0.125f}, {0.1f, 0.2f, 0.7f}, {0, 1, 0}};
   for (const Rule rule : map_rules()) {

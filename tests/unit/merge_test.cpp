@@ -123,6 +123,27 @@ TEST(Merge, BayesAddsLogOddsAndFuzzyJoins) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST(Merge, MapsThatForgetSayWhatTheySayNow) {
+  const auto d = testing::drive(Model::li2014, 12, 4);
+  const MapParams params{.rule = Rule::pcr5, .decay_s = 20};
+  Map a = fused(*d, params, 0, 6), b = fused(*d, params, 6, 6), before = fused(*d, params, 0, 6);
+  b.advance_to(9'000'000'000), before.advance_to(9'000'000'000);
+  merge(a, b.view());
+  int wrong = 0;
+  each_cell([&](CellIndex c) {
+    const Mass m = before.mass(c), n = b.mass(c), got = a.mass(c);
+    double x[3]{m.e, m.o, m.u}, y[3]{n.e, n.o, n.u}, k = 0;
+    combine(Rule::pcr5, Planes<const double>{x, x + 1, x + 2}, Planes<const double>{y, y + 1, y + 2},
+            Planes<double>{x, x + 1, x + 2}, &k, 1);
+    wrong += !(std::abs(got.e - x[0]) + std::abs(got.o - x[1]) + std::abs(got.u - x[2]) < 1e-6);
+  });
+  EXPECT_EQ(wrong, 0);
+  const Mass now = a.mass({20, 1});
+  a.advance_to(30'000'000'000);
+  EXPECT_LT(a.mass({20, 1}).e + a.mass({20, 1}).o, 0.5f * (now.e + now.o));
+  EXPECT_GT(now.e + now.o, 0.1f);
+}
+
 TEST(Merge, ManyMapsInTheirOrderAndViewsStay) {
   const auto d = testing::drive(Model::li2014, 24, 6);
   const MapParams params{.rule = Rule::pcr5};

@@ -59,7 +59,8 @@ std::string told_of_scans(const testing::Drive& d, const std::vector<Scan>& scan
 TEST(Revisable, RemovedAndMovedScansLeaveTheMapWithoutThem) {
   const auto d = testing::drive(Model::li2014, 36, 12);
   for (const MapParams params : {MapParams{.rule = Rule::pcr5, .keep_con = true}, MapParams{.rule = Rule::dempster},
-                                 MapParams{.rule = Rule::murphy}, MapParams{.rule = Rule::bayes}}) {
+                                 MapParams{.rule = Rule::murphy}, MapParams{.rule = Rule::bayes},
+                                 MapParams{.rule = Rule::pcr5, .decay_s = 1e-8}}) {
     for (const std::size_t checkpoint_every : {std::size_t{0}, std::size_t{5}}) {
       RevisableMap map(new_map(*d, params), {.checkpoint_every = checkpoint_every});
       std::vector<Scan> scans;

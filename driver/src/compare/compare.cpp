@@ -156,7 +156,7 @@ void compare(const CompareOptions& given) {
     const bool cones = std::any_of(subject.log.sensors.begin(), subject.log.sensors.end(),
                                    [](const LogSensor& s) { return s.sensor.model != Model::beam; });
     if (cones && sonar_models.empty()) throw InputError("--models: names no model for sonars");
-    if (subject.scene) use_filter(*subject.scene, options);
+    if (subject.scene) use_map_options(*subject.scene, options);
     for (const std::string& rule : o.rules) {
       for (const std::string& model : cones ? sonar_models : std::vector<std::string>{""}) {
         if (!model.empty()) {

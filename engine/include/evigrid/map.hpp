@@ -44,6 +44,12 @@ struct MapParams {
   /// Filter of false reflections (Li et al. 2014): of three neighbours of a ring, in the order of their bearings, the
   /// third reading stays when |d3 − d2| < |d1 − d2| + this, m. Below 0: off.
   double false_reflection_m = -1;
+  /// Forgetting: τ, s. A cell keeps exp(−Δt/τ) of its masses, Δt since the last reading that told it something, and
+  /// what it gives up becomes unknown (Shafer's discount, by time). 0: nothing is forgotten. Sensors may have a τ of
+  /// their own (Sensor::decay_s). Cells are read as they are at the last stamp; rules whose cells hold masses only.
+  /// Costs three planes. Discounts in order: the reading's (contextual, then reliability), the cell's by time, then
+  /// they are combined.
+  double decay_s = 0;
 };
 [[nodiscard]] std::vector<ParamError> check(const MapParams&);
 
@@ -93,6 +99,11 @@ class Map {
   Report undo(const Scan&);
   Report undo(std::span<const Scan>);
 
+  /// Lets time pass without a scan: a map that forgets is read as it is then. Earlier times, and maps that do not
+  /// forget, stay as they are. No change in the sense of changes(): whoever draws a forgetting map draws all that is in
+  /// sight.
+  void advance_to(std::int64_t stamp_ns) noexcept;
+
   [[nodiscard]] Mass mass(CellIndex) const noexcept;            ///< vacuous where nothing was seen
   [[nodiscard]] float conflict(CellIndex) const noexcept;       ///< running sum of k, 0 without the plane
   [[nodiscard]] float con(CellIndex) const noexcept;            ///< −Σ ln(1 − k), 0 without the plane
@@ -133,15 +144,16 @@ class Map {
   /// empty rectangle: no window.
   void set_window(CellRect window);
 
-  /// No reading changes these cells any more, and no undo: a map that was loaded, a room that is known. Whoever calls
-  /// clear(), write() or merge() means it, and does. Reports still count the updates that were kept off in tiles that
-  /// are protected in part. Costs readings nothing elsewhere.
+  /// No reading changes these cells any more, no undo and no decay: they keep what they hold now, a map that was
+  /// loaded, a room that is known. Whoever calls clear(), write() or merge() means it, and does. Reports still count
+  /// the updates that were kept off in tiles that are protected in part. Costs readings nothing elsewhere.
   void protect(CellRect area);
   void unprotect();  ///< all areas
   [[nodiscard]] std::span<const CellRect> protected_areas() const noexcept;
 
   /// Says what is known without a sensor: the cells of rect get these masses, row by row from the smallest y, row r at
-  /// masses[r·stride], and no history of conflict. A vacuous mass forgets the cell. Under rules that keep no masses the
+  /// masses[r·stride], and no history of conflict. A vacuous mass forgets the cell. In maps that
+  /// forget, what is written fades only after a reading came to it. Under rules that keep no masses the
   /// cell is as after one source with that mass. Throws std::invalid_argument naming the cell whose mass the rule
   /// cannot hold, or when masses is too short; std::length_error at the memory cap, before any cell is changed.
   void write(CellRect rect, std::span<const Mass> masses, std::ptrdiff_t stride);

@@ -24,6 +24,7 @@ struct MergeReport {
 /// Combines each cell of `into` with what `from` says there, by the rule of `into`: as the batched combine() does where
 /// cells are masses; sums (dempster_log, murphy) are added, so that the result is the map of both logs to the bit when
 /// both maps have that rule and reliability is 1; bayes adds log-odds, cautious takes the larger weight, fuzzy joins.
+/// Maps that forget are joined as of now, the later of their last stamps: each says what it would say to a reader.
 /// A pose without rotation that shifts by whole cells (to 1e-6 of a cell) is exact. Any other pose reads, for the
 /// centre of each cell of `into`, the cell of `from` that it falls in: none is read between cells, and thin walls may
 /// lose or double a cell. Sums of conflict add up, k of the merge among them. Areas outside the window of `into` are

@@ -30,10 +30,10 @@ enum class Layer : std::uint8_t {
   entropy,            ///< of betp, bits
   decision,           ///< of decide(): 1 occupied, 0 empty, ½ neither
   decision_betp,      ///< of decide_by_betp(): the same
-  fuzzy_map,          ///< M = 1 − Ψ²(1 − Ω)(1 − ΨΩ)(1 − (1 − Ψ)(1 − Ω)) of e, o as memberships (Oriolo et al. 1997)
-  conflict,           ///< running sum of the conflict k of every update; 0 where the map keeps none
-  con,                ///< −Σ ln(1 − k), the weight of conflict (Shafer 1976), nats; 0 where the map keeps none
-  last_conflict,      ///< k of the last update; 0 where the map keeps none
+  fuzzy_map,  ///< M = 1 − Ψ²(1 − Ω)(1 − ΨΩ)(1 − (1 − Ψ)(1 − Ω)) of e, o as memberships (Oriolo et al. 1997)
+  conflict,       ///< running sum of the conflict k of every update; 0 where the map keeps none
+  con,            ///< −Σ ln(1 − k), the weight of conflict (Shafer 1976), nats; 0 where the map keeps none
+  last_conflict,  ///< k of the last update; 0 where the map keeps none
 };
 inline constexpr int kLayerCount = 21;
 std::span<const Layer> all_layers() noexcept;

@@ -78,9 +78,12 @@ struct Sensor {
   /// Contextual discount before it, in (0, 1]: reliability where the cell is empty (what m(occupied) keeps), and where
   /// it is occupied (what m(empty) keeps).
   double reliability_if_empty = 1.0, reliability_if_occupied = 1.0;
-  int beams = 1;                    ///< number of ranges in one reading; > 1 only for a fan
-  double first_beam_rad = 0;        ///< bearing of beam 0 in S, counter-clockwise
-  double beam_step_rad = 0;         ///< bearing from one beam to the next
+  /// What this sensor says is forgotten with this τ, s, in maps that forget (MapParams::decay_s, which 0 means): a cell
+  /// ages at the rate of the sensor that told it something last.
+  double decay_s = 0;
+  int beams = 1;              ///< number of ranges in one reading; > 1 only for a fan
+  double first_beam_rad = 0;  ///< bearing of beam 0 in S, counter-clockwise
+  double beam_step_rad = 0;   ///< bearing from one beam to the next
   Hughes1992 hughes{};
   Oriolo1997 oriolo{};
   Li2006 li2006{};

@@ -54,12 +54,19 @@ bool state_is_sum(Rule rule) noexcept {
   return k == kDempsterLog || k == kMurphy;
 }
 
+bool state_is_masses(Rule rule) noexcept { return row_of(rule).plane[0].name == "e"; }
+
 std::vector<Plane> planes_of(const MapParams& p) {
   const StateRow& row = row_of(p.rule);
   std::vector<Plane> out(row.plane, row.plane + row.count);
   if (p.keep_conflict) out.push_back({"conflict", 0, 0, kEndless});
   if (p.keep_con) out.push_back({"con", 0, 0, kEndless});
   if (p.keep_last_conflict) out.push_back({"last_conflict", 0, 0, kSum});
+  if (p.decay_s > 0) {
+    out.push_back({"stamp_low", 0, 0, 0, true});
+    out.push_back({"stamp_high", 0, 0, 0, true});
+    out.push_back({"decay_s", 0, 0, kEndless});
+  }
   return out;
 }
 
@@ -68,11 +75,12 @@ CellLayout cell_layout(const MapParams& p, const KernelTable& table) {
   out.planes = planes_of(p);
   int next = row_of(p.rule).count;
   out.state = next;
-  out.planes_are_masses = out.planes[0].name == "e";
+  out.planes_are_masses = state_is_masses(p.rule);
   if (out.planes_are_masses && next > 3) out.paradox = 3;
   if (p.keep_conflict) out.conflict = next++;
   if (p.keep_con) out.con = next++;
   if (p.keep_last_conflict) out.last_conflict = next++;
+  if (p.decay_s > 0) out.age = next;
   out.read_out = table.read_out[kernel_of(p.rule)];
   return out;
 }

@@ -8,19 +8,41 @@
 #include <stdexcept>
 #include <vector>
 
+#include "grid/decay.hpp"
+
 namespace evigrid {
 namespace {
 
 constexpr int kSide = kernels::kTileSide, kMicro = kernels::kMicroSide, kCells = kernels::kMicroCells;
 constexpr float kZeros[kCells] = {};
 
+/// The planes of micro-tiles beside each other: where they lie or, in maps that forget, a copy as they are now.
+class PresentCells {
+ public:
+  /// `micros` of them from that of cell (x, y) of the tile on. Valid until the next call.
+  const float* read(const TileSource& store, const float* tile, int x, int y, int micros) noexcept {
+    const float* cells = tile + store.cell_offset(x & ~3, y & ~3);
+    if (store.layout().age < 0) return cells;
+    std::copy_n(cells, store.cell_offset(kMicro, 0) * static_cast<std::size_t>(micros), copy_);
+    age_masses(store.layout(), store.planes(), store.now_ns, copy_, micros);
+    return copy_;
+  }
+  const float* row(const TileSource& store, const float* tile, int y) noexcept {
+    return read(store, tile, 0, y, kernels::kMicrosPerSide);
+  }
+
+ private:
+  alignas(64) float copy_[kernels::kMicrosPerSide * kMostForgettingPlanes * kCells];
+};
+
 /// The masses of four rows of a tile's cells: the unit of reading. Micro-tiles beside each other lie one after the
 /// other, so it is one call of the kernel.
 struct Strip {
   alignas(64) float masses[kernels::kMicrosPerSide * 4 * kCells];
+  PresentCells cells;
 
-  void read(const TileSource& store, const float* cells, int y) {
-    store.layout().read_out(cells + store.cell_offset(0, y & ~3), store.planes(), kernels::kMicrosPerSide, masses);
+  void read(const TileSource& store, const float* tile, int y) {
+    store.layout().read_out(cells.row(store, tile, y), store.planes(), kernels::kMicrosPerSide, masses);
   }
   [[nodiscard]] Mass at(int x, int y) const noexcept {
     const float* p = masses + (x / kMicro) * 4 * kCells + (y % kMicro) * kMicro + x % kMicro;
@@ -92,8 +114,9 @@ void fill_tile(const TileSource& store, const float* cells, CellRect part, T* to
   T values[kCells];
   for (int my = y0 & ~3; my < y1; my += kMicro) {
     if (!l.planes_are_masses) strip.read(store, cells, my);
+    const float* const row = strip.cells.row(store, cells, my);
     for (int mx = x0 & ~3; mx < x1; mx += kMicro) {
-      const float* p = cells + store.cell_offset(mx, my);
+      const float* p = row + store.cell_offset(mx, 0);
       const auto kept = [&](int plane) { return plane < 0 ? kZeros : p + plane * kCells; };
       const float* masses = l.planes_are_masses ? p : strip.masses + (mx / kMicro) * 4 * kCells;
       const float* c = l.planes_are_masses ? kept(l.paradox) : masses + 3 * kCells;
@@ -213,7 +236,8 @@ CellState read_cell(const TileSource& store, CellIndex c) noexcept {
   if (cells == nullptr) return {};
   const int x = static_cast<int>(c.x & 63), y = static_cast<int>(c.y & 63);
   alignas(64) float m[4 * kCells];
-  store.layout().read_out(cells + store.cell_offset(x & ~3, y & ~3), store.planes(), 1, m);
+  PresentCells present;
+  store.layout().read_out(present.read(store, cells, x, y, 1), store.planes(), 1, m);
   const float* p = m + (y % kMicro) * kMicro + x % kMicro;
   CellState out{{p[0], p[kCells], p[2 * kCells], p[3 * kCells]}};
   add_history(store, cells, x, y, out);

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -39,6 +40,9 @@ class TileSource {
     return static_cast<std::size_t>(micro) * kernels::kMicroCells * static_cast<std::size_t>(planes_) +
            static_cast<std::size_t>(inside);
   }
+  /// Of maps that forget, the time at which their cells are read; the stamp of the last scan in any map. The smallest
+  /// number before the first.
+  std::int64_t now_ns = std::numeric_limits<std::int64_t>::min();
   /// nullptr where no tile is.
   [[nodiscard]] virtual const float* cells_of(TileIndex) const noexcept = 0;
   [[nodiscard]] virtual std::size_t size() const noexcept = 0;

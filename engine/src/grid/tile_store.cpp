@@ -18,6 +18,7 @@ void TileStore::clear() noexcept {
   for (auto& [at, tile] : tiles_) ages_->retire(tile.buffer);
   tiles_.clear();
   table_.clear();
+  now_ns = std::numeric_limits<std::int64_t>::min();
   watch(false);
 }
 

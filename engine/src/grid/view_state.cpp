@@ -11,7 +11,9 @@ ViewState::ViewState(const TileStore& store, std::shared_ptr<const Catalog> cata
       catalog_(std::move(catalog)),
       facts_(std::move(facts)),
       tiles_(store.size()),
-      age_(ages_->open_view()) {}
+      age_(ages_->open_view()) {
+  now_ns = store.now_ns;
+}
 
 ViewState::~ViewState() {
   catalog_.reset();  // before the writer may take the rows for its own

@@ -14,7 +14,6 @@ class ViewState final : public TileSource {
   struct Facts {
     MapParams params;
     std::shared_ptr<const std::vector<Sensor>> sensors;
-    std::int64_t last_stamp_ns;
     Losses losses;
   };
   ViewState(const TileStore& store, std::shared_ptr<const Catalog>, Facts);

@@ -25,6 +25,7 @@ void each_param(P& p, F&& f) {
   f("bayes.most_p", p.bayes.most_p);
   f("memory_cap_bytes", p.memory_cap_bytes);
   f("false_reflection_m", p.false_reflection_m);
+  f("decay_s", p.decay_s);
 }
 
 template <class S, class F>
@@ -41,6 +42,7 @@ void each_field(S& s, F&& f) {
   f("reliability", s.reliability);
   f("reliability_if_empty", s.reliability_if_empty);
   f("reliability_if_occupied", s.reliability_if_occupied);
+  f("decay_s", s.decay_s);
   f("beams", s.beams);
   f("first_beam_rad", s.first_beam_rad);
   f("beam_step_rad", s.beam_step_rad);

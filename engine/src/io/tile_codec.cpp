@@ -69,7 +69,7 @@ const char* TileDecoder::decode(const TileSource& store, std::span<const std::by
   each_value(store, cells, [&](int plane, float& value, std::size_t at) {
     value = std::bit_cast<float>(number_at<std::uint32_t>(flat_, at));
     const Plane& allowed = store.layout().planes[static_cast<std::size_t>(plane)];
-    good = good && value >= allowed.least && value <= allowed.most;  // false for NaN
+    good = good && (allowed.bits || (value >= allowed.least && value <= allowed.most));  // false for NaN
   });
   return good ? nullptr : "holds a number that is no mass";
 } catch (const std::bad_alloc&) {

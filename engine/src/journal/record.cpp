@@ -90,8 +90,7 @@ std::vector<std::byte> encode(JournalEvent::Kind kind, ScanId id, std::span<cons
     frame.resize(ZSTD_compressBound(payload.size()));
     const std::size_t n = ZSTD_compress(frame.data(), frame.size(), payload.data(), payload.size(), 1);
     if (ZSTD_isError(n)) throw std::bad_alloc();
-    frame.resize(n);
-    payload = frame;
+    payload = std::span<const std::byte>(frame).first(n);
   }
   if (payload.size() > kMaxPayload) throw std::invalid_argument("journal: a scan is too large for a record");
   io::Bytes head;

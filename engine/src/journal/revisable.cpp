@@ -46,7 +46,8 @@ struct RevisableMap::Impl {
     if (journal && map.tiles() > 0)
       throw std::invalid_argument("RevisableMap: a journal cannot say what the map held before its first scan");
     checkpoints.push_back({0, map.view()});
-    stamp_before = newest_stamp = kNever;
+    stamp_before = last_stamp(map);
+    newest_stamp = kNever;
   }
 
   Entry& entry(ScanId id) {
@@ -147,7 +148,11 @@ struct RevisableMap::Impl {
       if (!has_tile(first, at) && (!on_tile.contains(at) || is_vacuous(map, at))) gone.insert(at);
     }
     drop_tiles(map, gone);
-    set_last_stamp(map, order.empty() ? stamp_before : order.back()->scan.stamp_ns);
+    std::int64_t stamp = order.empty() ? stamp_before : order.back()->scan.stamp_ns;
+    if (map.params().decay_s > 0) {  // a map that forgets does not go back in time
+      for (const auto& e : order) stamp = std::max(stamp, e->scan.stamp_ns);
+    }
+    set_last_stamp(map, stamp);
   }
 
   Report sort_in(const Scan& s, std::size_t place) {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "grid/cell_state.hpp"
+#include "grid/decay.hpp"
+#include "grid/readout.hpp"
 
 namespace evigrid {
 namespace {
@@ -104,12 +106,19 @@ void drop_outside(const Grid& g, const TileRect& w) {
   commit(g, gone, false);
 }
 
-void drop(const Grid& g, const std::function<bool(TileIndex)>& which) {
-  std::vector<Tile*> gone;
-  for (auto& [at, tile] : g.store.tiles()) {
-    if (which(at)) gone.push_back(&tile);
+void freeze(const Grid& g, CellRect rect) {
+  if (rect.empty() || g.store.layout().age < 0) return;
+  const std::vector<Tile*> tiles = tiles_in(g.store, tiles_of(rect));
+  own_all(g.store, tiles);
+  for (Tile* t : tiles) {
+    each_cell(g.store, *t, part_in(rect, t->index), [&](float* cell, std::int64_t x, std::int64_t y) {
+      const Mass now = read_cell(g.store, {t->index.x * kSide + x, t->index.y * kSide + y}).mass;
+      if (now == Mass{}) return;
+      const CellPlanes s = state_of(g.params, now);
+      for (int p = 0; p < g.store.layout().state; ++p) cell[p * kCells] = s.at[p];
+      set_age(g.store.layout(), cell, {});
+    });
   }
-  commit(g, gone, false);
 }
 
 void write(const Grid& g, CellRect rect, const std::function<const Mass*(std::int64_t, std::int64_t)>& of) {

@@ -19,10 +19,10 @@ struct Grid {
 
 /// Cells of rect are as never seen; tiles without any other are given back. Costs the tiles that meet it.
 void forget(const Grid&, CellRect rect);
+/// Cells of rect keep, from now on, what they hold now: time makes them forget nothing more.
+void freeze(const Grid&, CellRect rect);
 /// Drops the tiles outside; costs the rows of tiles and what is dropped.
 void drop_outside(const Grid&, const TileRect& window);
-/// Drops these tiles, whatever they hold.
-void drop(const Grid&, const std::function<bool(TileIndex)>& which);
 /// Cells get the states of these masses and no history; of(x, y) is asked for the cells of rect, nullptr: left alone.
 void write(const Grid&, CellRect rect, const std::function<const Mass*(std::int64_t, std::int64_t)>& of);
 

@@ -11,6 +11,7 @@
 #include "evigrid/combine.hpp"
 #include "grid/admission.hpp"
 #include "grid/cell_state.hpp"
+#include "grid/decay.hpp"
 #include "grid/readout.hpp"
 #include "io/map_access.hpp"
 #include "kernels/row/portable_math.hpp"
@@ -104,6 +105,24 @@ class TileMerge {
   void put(float* cell, const CellPlanes& s) const noexcept {
     for (int p = 0; p < into_.layout().state; ++p) cell[p * kCells] = s.at[p];
   }
+  /// What a cell of `into` says now, where it forgets.
+  [[nodiscard]] Mass present(const Tile& tile, int i) const noexcept {
+    return read_cell(into_, {tile.index.x * kSide + i % kSide, tile.index.y * kSide + i / kSide}).mass;
+  }
+  /// A cell that was joined is as of now, and is forgotten as fast as before, or as fast as where it came from.
+  void renew(const Tile& tile, int i, float* cell) const noexcept {
+    if (into_.layout().age < 0) return;
+    CellAge age = age_of(into_.layout(), cell);
+    if (age.tau_s == 0 && from_.layout().age >= 0) {
+      const CellIndex at = cell_of_tile(tile.index, i);
+      age.tau_s =
+          age_of(from_.layout(), from_.cells_of(tile_of(at.x, at.y)) +
+                                     from_.cell_offset(static_cast<int>(at.x & 63), static_cast<int>(at.y & 63)))
+              .tau_s;
+    }
+    age.stamp_ns = into_.now_ns;
+    set_age(into_.layout(), cell, age);
+  }
   void add_history(float* cell, const CellState& from, float k, MergeReport& report) const noexcept {
     const CellLayout& l = into_.layout();
     if (l.conflict >= 0) cell[l.conflict * kCells] += from.conflict + k;
@@ -118,9 +137,8 @@ class TileMerge {
     const std::size_t n = cells.size();
     std::vector<double> a(4 * n), b(4 * n), k(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const float* cell = cell_at(tile, cells[i]);
-      a[i] = cell[0], a[n + i] = cell[kCells], a[2 * n + i] = cell[2 * kCells];
-      if (into_.layout().paradox >= 0) a[3 * n + i] = cell[into_.layout().paradox * kCells];
+      const Mass mine = present(tile, cells[i]);
+      a[i] = mine.e, a[n + i] = mine.o, a[2 * n + i] = mine.u, a[3 * n + i] = mine.c;
       const Mass& m = with[i].mass;
       b[i] = believed(m.e), b[n + i] = believed(m.o), b[3 * n + i] = believed(m.c);
       b[2 * n + i] = std::max(1 - reliability_ + believed(m.u), 0.0);
@@ -137,6 +155,7 @@ class TileMerge {
                    static_cast<float>(a[3 * n + i])};
       float* const cell = cell_at(tile, cells[i]);
       put(cell, state_of(params_, m));
+      renew(tile, cells[i], cell);
       add_history(cell, with[i], static_cast<float>(k[i]), report);
     }
   }
@@ -158,8 +177,7 @@ class TileMerge {
         m.e = static_cast<float>(believed(m.e)), m.o = static_cast<float>(believed(m.o)), m.c = 0;
         theirs = state_of(params_, m);
       }
-      const CellIndex here{tile.index.x * kSide + cells[i] % kSide, tile.index.y * kSide + cells[i] / kSide};
-      const Mass before = read_cell(into_, here).mass;
+      const Mass before = present(tile, cells[i]);
       const float k = static_cast<float>(believed(before.e) * with[i].mass.o + believed(before.o) * with[i].mass.e);
       put(cell, joined(params_, mine, theirs));
       add_history(cell, with[i], k, report);
@@ -200,6 +218,7 @@ MergeReport merge(Map& into, const MapView& from, const MergeOptions& options) {
   const Placement place(options.T_into_from, into.params().cell_m);
   const TileMerge merging(into.params(), store, source, from.params().rule, place, options.reliability);
 
+  store.now_ns = std::max(store.now_ns, source.now_ns);
   std::set<TileIndex> wanted;
   for (const TileRef& t : source.in_order()) {
     const TileRect r = tiles_of(place.around(t.at));

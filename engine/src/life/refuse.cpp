@@ -114,6 +114,7 @@ bool is_vacuous(const Map& map, TileIndex at) noexcept {
 }
 bool has_tile(const MapView& view, TileIndex at) noexcept { return MapAccess::source(view).cells_of(at) != nullptr; }
 
+std::int64_t last_stamp(const Map& map) noexcept { return MapAccess::last_stamp_ns(map); }
 void set_last_stamp(Map& map, std::int64_t stamp_ns) { MapAccess::last_stamp_ns(map) = stamp_ns; }
 
 }  // namespace evigrid

@@ -24,6 +24,7 @@ void drop_tiles(Map&, const TileSet&);
 TileSet all_tiles(const Map&);
 bool is_vacuous(const Map&, TileIndex) noexcept;  ///< also where there is no tile
 bool has_tile(const MapView&, TileIndex) noexcept;
+std::int64_t last_stamp(const Map&) noexcept;
 void set_last_stamp(Map&, std::int64_t stamp_ns);
 
 }  // namespace evigrid

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "evigrid/map.hpp"
+#include "grid/cell_layout.hpp"
 #include "model_rows.hpp"
 #include "params/table.hpp"
 
@@ -56,6 +57,10 @@ std::vector<ParamError> check(const MapParams& p) {
   if (!(p.bayes.least_p < p.bayes.most_p)) errors.push_back({"map.bayes.least_p", "must be below most_p"});
   if (p.keep_con && !p.keep_conflict) errors.push_back({"map.keep_con", "needs keep_conflict"});
   if (p.keep_last_conflict && !p.keep_conflict) errors.push_back({"map.keep_last_conflict", "needs keep_conflict"});
+  if (p.decay_s > 0 && !state_is_masses(p.rule)) {
+    errors.push_back({"map.decay_s", "cannot be with the rule " + std::string(name(p.rule)) +
+                                         ": its cells hold no masses that time could discount"});
+  }
   if (const auto why = why_not_in_maps(p.rule); !why.empty()) {
     errors.push_back(
         {"map.rule", "cannot be " + std::string(name(p.rule)) + ": " + std::string(why) + "; use it with combine"});

@@ -19,7 +19,8 @@ ModelMass evaluate(const Sensor& s, double range_m, double d_m, double theta_rad
     const double fall = (1 - d_m / (2 * s.max_range_m)) * s.reliability;
     if (d_m < s.min_range_m || d_m > s.max_range_m || std::fabs(theta_rad) > s.beam_step_rad / 2) return {};
     const double e = d_m < range_m - s.beam.empty_margin_m ? s.beam.empty * fall * s.reliability_if_occupied : 0;
-    const double o = std::fabs(d_m - range_m) <= s.beam.occupied_half_width_m ? s.beam.occupied * fall * s.reliability_if_empty : 0;
+    const double o =
+        std::fabs(d_m - range_m) <= s.beam.occupied_half_width_m ? s.beam.occupied * fall * s.reliability_if_empty : 0;
     return {e, o, 1 - e - o, 0};
   }
   const double alpha = s.aperture_rad / 2;

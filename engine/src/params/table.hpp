@@ -19,6 +19,7 @@ struct ParamRow {
   bool is_switch = false;
 };
 
+inline constexpr double kLeastDecay_s = 1e-3, kMostDecay_s = 1e9;
 inline constexpr double kMaxReachCells = 65536;  // the lattice of docs/maths.md keeps 2^-5 cells there
 
 inline constexpr ParamRow<MapParams> kMapRows[] = {
@@ -27,6 +28,8 @@ inline constexpr ParamRow<MapParams> kMapRows[] = {
     {"map.bayes.most_p", "", 0.5, 1 - 1e-9, [](const MapParams& p) { return p.bayes.most_p; }, "ours"},
     {"map.false_reflection_m", "m (below 0: off)", 0, 1e3,
      [](const MapParams& p) { return p.false_reflection_m < 0 ? 0 : p.false_reflection_m; }, "Li et al. 2014"},
+    {"map.decay_s", "s (0: never)", kLeastDecay_s, kMostDecay_s,
+     [](const MapParams& p) { return p.decay_s == 0 ? kMostDecay_s : p.decay_s; }, "Shafer 1976, by time"},
 };
 
 // Apertures above 40° would need a higher degree than the cubic fits of the cone's angular part have.
@@ -41,6 +44,8 @@ inline constexpr ParamRow<Sensor> kSensorRows[] = {
      "Mercier et al. 2008"},
     {"sensor.reliability_if_occupied", "", 1e-6, 1, [](const Sensor& s) { return s.reliability_if_occupied; },
      "Mercier et al. 2008"},
+    {"sensor.decay_s", "s (0: the map's)", kLeastDecay_s, kMostDecay_s,
+     [](const Sensor& s) { return s.decay_s == 0 ? kMostDecay_s : s.decay_s; }, "ours"},
     {"sensor.T_robot_sensor.x_m", "m", -1e4, 1e4, [](const Sensor& s) { return s.T_robot_sensor.x_m; }, "ours"},
     {"sensor.T_robot_sensor.y_m", "m", -1e4, 1e4, [](const Sensor& s) { return s.T_robot_sensor.y_m; }, "ours"},
     {"sensor.T_robot_sensor.yaw_rad", "rad", -1e3, 1e3, [](const Sensor& s) { return s.T_robot_sensor.yaw_rad; },

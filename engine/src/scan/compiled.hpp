@@ -24,6 +24,7 @@ struct CompiledSensor {
 struct Footprint {
   const CompiledSensor* sensor = nullptr;
   kernels::SensorPose pose{};
+  std::int64_t stamp_ns = 0;  // of its scan
   double range_m = 0;   // of a cone
   int cone_model = -1;  // index into the kernel table; −1 is a fan
   kernels::ConeReading cone;

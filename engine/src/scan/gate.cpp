@@ -88,7 +88,7 @@ bool usable(const Pose2& p, double cell_m) {
 
 void count(Report& r, Refusal why, std::uint64_t n = 1) { r.refused[static_cast<std::size_t>(why)] += n; }
 
-void gate_fan(const Reading& reading, const CompiledSensor& c, const kernels::SensorPose& pose,
+void gate_fan(const Reading& reading, const CompiledSensor& c, const kernels::SensorPose& pose, std::int64_t stamp_ns,
               std::vector<Footprint>& out, Report& report) {
   const Sensor& s = c.sensor;
   auto fan = std::make_unique<kernels::Fan>();
@@ -113,6 +113,7 @@ void gate_fan(const Reading& reading, const CompiledSensor& c, const kernels::Se
   Footprint f;
   f.sensor = &c;
   f.pose = pose;
+  f.stamp_ns = stamp_ns;
   f.fan = std::move(fan);
   out.push_back(std::move(f));
 }
@@ -156,7 +157,7 @@ void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, con
     const Pose2 p = compose(scan.T_map_robot, s.T_robot_sensor);
     const kernels::SensorPose pose{p.x_m, p.y_m, p.yaw_rad};
     if (s.model == Model::beam) {
-      gate_fan(reading, c, pose, out, report);
+      gate_fan(reading, c, pose, scan.stamp_ns, out, report);
       continue;
     }
     const float range = reading.ranges_m[0];
@@ -172,6 +173,7 @@ void gate_scan(const Scan& scan, const std::vector<CompiledSensor>& sensors, con
     Footprint f;
     f.sensor = &c;
     f.pose = pose;
+    f.stamp_ns = scan.stamp_ns;
     f.range_m = range;
     f.cone_model = std::get<kernels::ConeType>(c.type).spec.model;
     out.push_back(std::move(f));

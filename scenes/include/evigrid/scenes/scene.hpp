@@ -29,6 +29,7 @@ struct Pose {
 struct MapSpec {
   double cell_m = 0.05;
   std::string rule;
+  double decay_s = 0;              ///< τ of forgetting, s; 0: nothing is forgotten
   double false_reflection_m = -1;  ///< tolerance of the filter of false reflections; below 0: none
 };
 
@@ -42,6 +43,7 @@ struct SonarSpec {
   double aperture_rad = 0;  ///< full opening
   double min_range_m = 0, max_range_m = 0;
   double reliability = 1;     ///< in (0, 1]
+  double decay_s = 0;         ///< τ of what it says, s, in maps that forget; 0: the map's
   raycast::RangeNoise noise;  ///< of the simulated readings
   int group = 0;              ///< sonars of one group ping at the same moment: cross-talk happens within it
 };
@@ -55,6 +57,7 @@ struct LaserSpec {
   int beams = 0;
   double min_range_m = 0, max_range_m = 0;
   double reliability = 1;
+  double decay_s = 0;
   raycast::RangeNoise noise;
 };
 
