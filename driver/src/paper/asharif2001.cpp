@@ -397,11 +397,13 @@ PaperResult run_asharif2001(const PaperOptions& o) {
                {"bayes_ways.png", png(draw_ways(bayes, room, true))}};
 
   Page& page = out.page;
+  const std::string where = paper_room ? "a room of 15 x 20 m with four obstacles" : "the plan " + o.world;
   page.paragraph(fmt::format(
-      "A robot with 8 sonars and 8 laser range finders maps a room of 15 x 20 m with four obstacles in {} steps. The "
-      "same readings are fused twice: as masses by Dempster's rule, and as P = (1 + o - e) / 2 by Bayes' rule. A* then "
-      "plans eight ways on either map under one step cost.",
-      log.scans.size()));
+      "A robot with 8 sonars and 8 laser range finders maps {} in {} steps. The same readings are fused twice: as "
+      "masses "
+      "by Dempster's rule, and as P = (1 + o - e) / 2 by Bayes' rule. A* then plans eight ways on either map under one "
+      "step cost.",
+      where, log.scans.size()));
   page.findings(out.findings);
   page.heading("The maps");
   page.begin_row();
@@ -430,19 +432,23 @@ PaperResult run_asharif2001(const PaperOptions& o) {
        {"Bayes, lasers as beams", beam_b.score, mean_conflict(beam_b.layers), rerender(beam_b.layers, log)}});
   page.table(metrics.head, metrics.rows);
   page.heading("What the text leaves open");
-  page.list({"The obstacles' places: ours; the paper has a drawing of them. All seven ends of the routes are free.",
-             fmt::format("The lasers' model: Oriolo's as for the sonars, with an aperture of 2 degrees, an arc of {:g} "
-                         "m on either side and belief halved at {:g} m. The last two rows of the findings and of the "
-                         "metrics have them as beams instead.",
-                         kLaserDelta_m, kLaserRhoV_m),
-             "The cost of a step: the paper gives none. One for both maps: length x (1 + w m), blocked above a "
-             "threshold; the sweep varies both.",
-             "Clearance: from the centres of a way's cells to the nearest true surface, by an exact distance transform "
-             "of the true room on a raster of " +
-                 fmt::format("{:.3f} m.", room.clearance.raster_m()),
-             fmt::format("How fast the robot revolves: {:g} degrees/s.", kRevolve_rad_s * 180 / std::numbers::pi),
-             "The random phase: waypoints drawn once; the paper's robot avoided obstacles by a fuzzy rule base. "
-             "Probabilities are kept within 1e-9 of 0 and 1."});
+  page.list(
+      {paper_room
+           ? "The obstacles' places: ours; the paper has a drawing of them. All seven ends of the routes are free."
+           : "The way and the routes: a tour through all that the robot can reach, and eight pairs of far places on "
+             "it.",
+       fmt::format("The lasers' model: Oriolo's as for the sonars, with an aperture of 2 degrees, an arc of {:g} "
+                   "m on either side and belief halved at {:g} m. The last two rows of the findings and of the "
+                   "metrics have them as beams instead.",
+                   kLaserDelta_m, kLaserRhoV_m),
+       "The cost of a step: the paper gives none. One for both maps: length x (1 + w m), blocked above a "
+       "threshold; the sweep varies both.",
+       "Clearance: from the centres of a way's cells to the nearest true surface, by an exact distance transform "
+       "of the true room on a raster of " +
+           fmt::format("{:.3f} m.", room.clearance.raster_m()),
+       fmt::format("How fast the robot revolves: {:g} degrees/s.", kRevolve_rad_s * 180 / std::numbers::pi),
+       "The random phase: waypoints drawn once; the paper's robot avoided obstacles by a fuzzy rule base. "
+       "Probabilities are kept within 1e-9 of 0 and 1."});
   out.details["dempster"] = to_json(dempster.score);
   out.details["bayes"] = to_json(bayes.score);
   return out;

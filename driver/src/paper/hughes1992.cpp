@@ -224,7 +224,7 @@ PaperResult run_hughes1992(const PaperOptions& o) {
   }
   Page& page = out.page;
   page.paragraph(
-      "A robot with a ring of 24 sonars is put somewhere in a cluttered room of which it knows nothing. It senses, "
+      "A robot with a ring of 24 sonars is put somewhere in a room of which it knows nothing. It senses, "
       "fuses the readings "
       "into a grid by Dempster's rule, and moves towards the centroid of the cells that are surely empty and little "
       "disputed, until it "
@@ -268,9 +268,10 @@ PaperResult run_hughes1992(const PaperOptions& o) {
   page.heading("What the text leaves open");
   page.list(
       {"The width of the occupied arc: 0.15 m on either side of the reading.",
-       "What stands in the room, 10 x 10 m; sonars throw sound away beyond critical incidences of "
-       "65 to 75 degrees; noise "
-       "of 1 cm + 0.5 % of the range.",
+       paper_room
+           ? "What stands in the room of 10 x 10 m, and that it throws sound away beyond critical incidences of 65 "
+             "to 75 degrees; noise of 1 cm + 0.5 % of the range."
+           : "Where it starts: within 0.9 m of where a first run from the widest place ends.",
        "A sonar that hears nothing: its cone counts as empty up to the full range of 7.62 m, as a transducer that "
        "returns its largest range would have it; without that nothing would draw the robot into the gymnasium.",
        "Averaging: three readings a sonar; no echo counts as the full range of 7.62 m.",

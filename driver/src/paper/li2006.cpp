@@ -263,17 +263,15 @@ PaperResult run_li2006(const PaperOptions& o) {
       for (Finding& f : agreement(kMethods[i].name, maps[i].score, kFloors[i])) out.findings.push_back(std::move(f));
   }
   out.files.push_back({"methods.png", png(draw_methods(maps, drive))});
-  out.files.push_back(
-      {"surface.png", png(draw_surface(maps[kDsmt].layers, {"DSmT + PCR5", "one drive around a box"}))});
+  out.files.push_back({"surface.png", png(draw_surface(maps[kDsmt].layers, {"DSmT + PCR5", "one drive, 16 sonars"}))});
 
   Page& page = out.page;
-  page.paragraph(
-      fmt::format("A robot with 16 sonars drives once around a box in a room of 5 x 5 m and senses every 100 ms: {} "
-                  "scans. The same "
-                  "log is fused by probability theory (eq. 14.13, Bayes), by fuzzy sets (eq. 14.15 to 14.17), by "
-                  "Dempster's rule and "
-                  "by DSmT with PCR5, the latter two from the same masses (eq. 14.6 to 14.10).",
-                  drive.log.scans.size()));
+  page.paragraph(fmt::format(
+      "A robot with 16 sonars drives {}: {} scans. The same log is fused by probability theory (eq. 14.13, Bayes), by "
+      "fuzzy sets (eq. 14.15 to 14.17), by Dempster's rule and by DSmT with PCR5, the latter two from the same masses "
+      "(eq. 14.6 to 14.10).",
+      paper_room ? "once around a box in a room of 5 x 5 m and senses every 100 ms" : "through the plan " + o.world,
+      drive.log.scans.size()));
   page.findings(out.findings);
   page.heading("The maps");
   page.picture(out.files[0].bytes, "What the chapter's figures 14.13 to 14.16 show of each method.");
@@ -303,7 +301,7 @@ PaperResult run_li2006(const PaperOptions& o) {
   page.table(metrics.head, metrics.rows);
   page.heading("What the text leaves open");
   page.list(
-      {"The box's place and size, the robot's way around it, the noise (5 mm + 1 % of the range): ours.",
+      {"The box's place and size, the robot's way, the noise (5 mm + 1 % of the range): ours.",
        "Precision and mistaken rate are words in Table 14.1; here they are counted against the true room.",
        "eps = 0.10 m, rho_v of eq. (14.12) = 1.2 m, kE = 0.1, kO = 0.5: ours, within what the literature uses.",
        "In the printed equations all four masses carry lambda, so that normalising would cancel it: they are "
