@@ -3,6 +3,7 @@
 
 #include <zstd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <new>
@@ -114,9 +115,9 @@ std::vector<std::byte> scan_payload(const Scan& s) {
     out.put(static_cast<std::uint32_t>(r.ranges_m.size()));
     all += r.ranges_m.size();
   }
-  std::vector<std::byte> bytes = taken(out);
-  std::size_t at = bytes.size();
-  bytes.resize(at + all * sizeof(float));
+  std::size_t at = out.get().size();
+  std::vector<std::byte> bytes(at + all * sizeof(float));
+  std::copy(out.get().begin(), out.get().end(), bytes.begin());
   for (const Reading& r : s.readings) {
     for (const float range : r.ranges_m) {
       const auto bits = std::bit_cast<std::uint32_t>(range);
