@@ -17,6 +17,7 @@ void add_model(CLI::App& app);
 void add_info(CLI::App& app);
 void add_show(CLI::App& app);
 void add_diff(CLI::App& app);
+void add_merge(CLI::App& app);
 void add_paper(CLI::App& app);
 void add_cycle(CLI::App& app);
 

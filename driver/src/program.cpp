@@ -43,6 +43,7 @@ int run_program(int argc, const char* const* argv) {
     add_model(app);
     add_show(app);
     add_diff(app);
+    add_merge(app);
     add_paper(app);
     add_cycle(app);
     add_info(app);

@@ -10,6 +10,7 @@
 #include "rule_kernels.hpp"
 #include "scan/copy_tiles.hpp"
 #include "scan/gate.hpp"
+#include "scan/shield.hpp"
 #include "scratch.hpp"
 
 namespace evigrid {
@@ -228,6 +229,7 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   Report report;
   s.footprints.clear();
   std::size_t number = 0;
+  s.scan_end.clear();
   for (const Scan& scan : scans) {  // gate: compile what can be used, count the rest
     if (!p.undo) {
       std::int64_t& now_ns = p.store.now_ns;
@@ -239,11 +241,13 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
     gate_scan(scan, p.sensors, p.params, s.footprints, report);
     for (std::size_t i = first; i < s.footprints.size(); ++i) s.footprints[i].scan = number;
     ++number;
+    s.scan_end.push_back(s.footprints.size());
   }
   compile_all(s.footprints, p);
   const int threads = p.executor.concurrency();
-  bin(s.footprints, p.table, p.store, threads, s.plan);
+  bin(s.footprints, p.table, p.store, p.admission, threads, s.plan);
   copy_what_views_see(s.plan, p.store, p.executor);
+  const Shield shield(s.plan, p.admission, p.store);
   s.stats.assign(s.plan.regions(), {});
   if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
   const bool dependent = std::any_of(p.sensors.begin(), p.sensors.end(), [](const CompiledSensor& c) {
@@ -260,6 +264,7 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
         b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += task.tiles;
       },
       &batch);
+  shield.restore();
   for (const kernels::Stats& region : s.stats) {
     report.cells_updated += region.cells;
     report.total_conflicts += region.total_conflicts;

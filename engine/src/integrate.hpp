@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evigrid/map.hpp"
+#include "grid/admission.hpp"
 #include "grid/change_log.hpp"
 #include "grid/tile_store.hpp"
 #include "scan/compiled.hpp"
@@ -19,6 +20,7 @@ struct Pipeline {
   ChangeLog& changes;
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
+  const Admission& admission;
   bool undo = false;  // takes the scans back
 };
 

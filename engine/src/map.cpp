@@ -10,6 +10,8 @@
 #include "grid/view_state.hpp"
 #include "integrate.hpp"
 #include "io/map_access.hpp"
+#include "life/edit.hpp"
+#include "life/known_areas.hpp"
 #include "params/table.hpp"
 #include "scratch.hpp"
 
@@ -26,6 +28,7 @@ struct Map::Impl {
   std::shared_ptr<const std::vector<Sensor>> sensors = std::make_shared<const std::vector<Sensor>>();  // views keep it
   std::vector<std::uint64_t> tiles_per_worker;
   Scratch scratch;
+  Admission admission;
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
       : params(p),
@@ -33,6 +36,10 @@ struct Map::Impl {
         executor(e ? std::move(e) : std::shared_ptr<Executor>(make_tbb_executor())),
         store(cell_layout(p, *table), p.memory_cap_bytes),
         tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
+  [[nodiscard]] Pipeline pipeline() noexcept {
+    return {params, *table, compiled, store, changes, *executor, tiles_per_worker, admission};
+  }
+  [[nodiscard]] Grid grid() noexcept { return {params, store, changes}; }
 };
 
 Map::Map(const MapParams& params, std::shared_ptr<Executor> executor) {
@@ -60,10 +67,7 @@ SensorId Map::add(const Sensor& sensor) {
 
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
 Report Map::integrate(std::span<const Scan> scans) {
-  Impl& m = *impl_;
-  return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker}, m.scratch,
-      scans);
+  return evigrid::integrate(impl_->pipeline(), impl_->scratch, scans);
 }
 
 Report Map::undo(const Scan& scan) { return undo(std::span<const Scan>(&scan, 1)); }
@@ -71,11 +75,11 @@ Report Map::undo(std::span<const Scan> scans) {
   Impl& m = *impl_;
   if (!state_is_sum(m.params.rule)) {
     throw std::logic_error("undo: a map of the rule " + std::string(name(m.params.rule)) +
-                           " cannot take a scan back: its cells are no sums");
+                           " cannot take a scan back: its cells are no sums (a RevisableMap can)");
   }
-  return evigrid::integrate(
-      {m.params, *m.table, m.compiled, m.store, m.changes, *m.executor, m.tiles_per_worker, true},
-      m.scratch, scans);
+  Pipeline back = m.pipeline();
+  back.undo = true;
+  return evigrid::integrate(back, m.scratch, scans);
 }
 
 void Map::advance_to(std::int64_t stamp_ns) noexcept {
@@ -105,14 +109,36 @@ std::uint64_t Map::hash() const { return hash_cells(impl_->store); }
 MapView Map::view() {
   Impl& m = *impl_;
   auto catalog = m.cataloguer.bring_up_to_date(m.store, m.changes);
-  return MapView(std::make_shared<const ViewState>(
-      m.store, std::move(catalog), ViewState::Facts{m.params, m.sensors, m.changes.losses()}));
+  return MapView(std::make_shared<const ViewState>(m.store, std::move(catalog),
+                                                   ViewState::Facts{m.params, m.sensors, m.changes.losses()}));
 }
 
 void Map::clear() {
   impl_->store.clear();
   impl_->changes.clear();
 }
+void Map::clear(CellRect rect) { forget(impl_->grid(), rect); }
+void Map::set_window(CellRect window) {
+  impl_->admission.window.reset();
+  if (window.empty()) return;
+  impl_->admission.window = tiles_of(window);
+  drop_outside(impl_->grid(), *impl_->admission.window);
+}
+void Map::protect(CellRect area) {
+  if (area.empty()) return;
+  freeze(impl_->grid(), area);
+  impl_->admission.guarded.push_back(area);
+}
+void Map::unprotect() { impl_->admission.guarded.clear(); }
+std::span<const CellRect> Map::protected_areas() const noexcept { return impl_->admission.guarded; }
+void Map::write(CellRect rect, std::span<const Mass> masses, std::ptrdiff_t stride) {
+  write_masses(impl_->grid(), rect, masses, stride);
+}
+void Map::write(CellRect rect, std::span<const std::int8_t> occupancy, std::ptrdiff_t stride, double certainty) {
+  write_occupancy(impl_->grid(), rect, occupancy, stride, certainty);
+}
+void Map::write(std::span<const Point2> polygon, const Mass& mass) { write_polygon(impl_->grid(), polygon, mass); }
+
 const MapParams& Map::params() const noexcept { return impl_->params; }
 std::span<const Sensor> Map::sensors() const noexcept { return *impl_->sensors; }
 std::string_view Map::kernel_name() const noexcept { return impl_->table->name; }
@@ -124,6 +150,10 @@ std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
 const TileSource& MapAccess::source(const Map& m) noexcept { return m.impl_->store; }
 TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
+Admission& MapAccess::admission(Map& m) noexcept { return m.impl_->admission; }
+Scratch& MapAccess::scratch(Map& m) noexcept { return m.impl_->scratch; }
+const Scratch& MapAccess::scratch(const Map& m) noexcept { return m.impl_->scratch; }
+Pipeline MapAccess::pipeline(Map& m) noexcept { return m.impl_->pipeline(); }
 std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->store.now_ns; }
 std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->store.now_ns; }
 Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }

@@ -28,6 +28,7 @@ struct RegionScratch {
 
 struct Scratch {
   std::vector<Footprint> footprints;
+  std::vector<std::size_t> scan_end;  // of each scan, the end of its footprints
   Plan plan;
   std::vector<kernels::Stats> stats;  // a region
   std::vector<RegionScratch> workers;
