@@ -64,6 +64,7 @@ void run_train(const Args& args) {
     throw InputError("--cell: must be within [0.001, 10] m");
   if (!(args.options.held_out >= 0.05 && args.options.held_out <= 0.95))
     throw InputError("--held-out: must be within [0.05, 0.95]");
+  if (args.options.examples < 100) throw InputError("--examples: must be at least 100");
   require_writable(args.out);
   if (!args.json.empty() && args.json != "-") require_writable(args.json);
   std::vector<std::vector<Sample>> samples = read_samples(args.data);
@@ -129,6 +130,8 @@ void add_train(CLI::App& app) {
   command->add_option("--cell", args->options.cell_m, "m: a cell is occupied when the true range lies in it")
       ->capture_default_str();
   command->add_option("--held-out", args->options.held_out, "share of the readings kept for the judgement")
+      ->capture_default_str();
+  command->add_option("--examples", args->options.examples, "most cells to train on, spread over the readings")
       ->capture_default_str();
   command->add_option("--seed", args->options.seed, "of the split and of the starts")->capture_default_str();
   command->add_flag("--together", args->together, "one network for all sensors of DATA, not one each");

@@ -46,17 +46,17 @@ TEST(Revision, ExamplesAreEmptyOccupiedAndUnknownByTheTrueRange) {
 }
 
 TEST(Revision, LearnsAKnownFaultAndBeatsTheConstant) {
-  const Trained t = train(sonar(), biased(0.15, 600), {.tries = 2});
+  const Trained t = train(sonar(), biased(0.15, 400), {.examples = 800, .tries = 2});
   for (const std::size_t n : t.held_out) EXPECT_GT(n, 50U);
   EXPECT_LT(t.revised.rms, 0.9 * t.modelled.rms);
   EXPECT_LT(t.revised.rms, 0.9 * t.constant.rms);
   EXPECT_LT(t.constant.rms, t.always_occupied.rms);
-  const Trained again = train(sonar(), biased(0.15, 600), {.tries = 2});
+  const Trained again = train(sonar(), biased(0.15, 400), {.examples = 800, .tries = 2});
   EXPECT_EQ(again.network.weight, t.network.weight);
 }
 
 TEST(Revision, GivesMasses) {
-  const Trained t = train(sonar(), biased(0, 300), {.tries = 1});
+  const Trained t = train(sonar(), biased(0, 300), {.examples = 400, .tries = 1});
   for (const Gbba& in : {Gbba{1, 0, 0, 0}, Gbba{0, 1, 0, 0}, Gbba{0.2, 0.3, 0.1, 0.4}}) {
     const Gbba out = revise(t.network, in);
     double sum = 0;
@@ -90,7 +90,8 @@ TEST(Revision, FromSimulatedReadingsToRevisedMasses) {
   const TempDir dir;
   const Ran cast = evigrid({"cast", "--truth", "-o", dir.at("readings.csv")});
   ASSERT_EQ(cast.code, 0) << cast.err;
-  const Ran ran = evigrid({"train", dir.at("readings.csv"), "--together", "-o", dir.at("r.json"), "--json", "-"});
+  const Ran ran = evigrid(
+      {"train", dir.at("readings.csv"), "--together", "--examples", "800", "-o", dir.at("r.json"), "--json", "-"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const auto report = nlohmann::json::parse(ran.out);
   EXPECT_EQ(report["sensors"].size(), 1U);
