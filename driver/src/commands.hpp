@@ -8,6 +8,7 @@ namespace evigrid::driver {
 void add_map(CLI::App& app);
 void add_log(CLI::App& app);
 void add_calibrate(CLI::App& app);
+void add_train(CLI::App& app);
 void add_run(CLI::App& app);
 void add_cast(CLI::App& app);
 void add_compare(CLI::App& app);

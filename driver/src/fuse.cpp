@@ -83,6 +83,7 @@ Sensor configured(const LogSensor& from_log, const MappingOptions& o, bool mixed
   const double own = from_log.stated || s.reliability < 1 ? s.reliability : fan ? 1.0 : 0.9;
   s.reliability = o.reliability.value_or(own);
   if (o.contextual.size() == 2) s.reliability_if_empty = o.contextual[0], s.reliability_if_occupied = o.contextual[1];
+  apply_dependence(o.dependence, s);
   if (const auto errors = check(s); !errors.empty()) throw InputError(listed(errors));
   return s;
 }

@@ -36,6 +36,7 @@ int run_program(int argc, const char* const* argv) {
     add_run(app);
     add_log(app);
     add_calibrate(app);
+    add_train(app);
     add_cast(app);
     add_compare(app);
     add_combine(app);

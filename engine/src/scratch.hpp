@@ -5,6 +5,7 @@
 
 #include "grid/decay.hpp"
 #include "scan/bin.hpp"
+#include "scan/dependent.hpp"
 
 namespace evigrid {
 
@@ -20,6 +21,9 @@ struct RegionScratch {
   std::vector<PendingCone> pending;
   kernels::FanMicros fan_micros;
   DecayedUpdate decayed;
+  DependentReadings together[3];  // a policy: Dependence, without independent
+  BlankMicros blank;
+  std::vector<float*> blank_cells;
 };
 
 struct Scratch {
