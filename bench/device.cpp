@@ -51,7 +51,9 @@ void dense(kernels::Device& device) {
 
 /// `robots` rings of 24 sonars strewn over a square of `side` cells, a scan each.
 void fleet(int robots, int side, Model model, Rule rule, bool on_device) {
-  Map map({.rule = rule, .kernel = on_device ? Kernel::cuda : Kernel::automatic, .memory_cap_bytes = std::size_t{64} << 30});
+  Map map({.rule = rule,
+           .kernel = on_device ? Kernel::cuda : Kernel::automatic,
+           .memory_cap_bytes = std::size_t{64} << 30});
   for (int i = 0; i < 24; ++i) {
     Sensor s;
     s.model = model;
@@ -96,8 +98,8 @@ void fleet(int robots, int side, Model model, Rule rule, bool on_device) {
               std::string(name(model)).c_str(), std::string(name(rule)).c_str(), std::string(map.kernel_name()).c_str(),
               1e-6 * static_cast<double>(cells), 1e3 * whole);
   if (on_device)
-    std::printf("; kernels %6.2f ms = %5.2f Gcell/s, up %.2f, back %.2f ms %s", 1e3 * fuse, 1e-9 * static_cast<double>(cells) / fuse,
-                1e3 * up, 1e3 * back, std::string(map.kernel_note()).c_str());
+    std::printf("; kernels %6.2f ms = %5.2f Gcell/s, up %.2f, back %.2f ms %s", 1e3 * fuse,
+                1e-9 * static_cast<double>(cells) / fuse, 1e3 * up, 1e3 * back, std::string(map.kernel_note()).c_str());
   std::printf("; hash %016llx\n", static_cast<unsigned long long>(map.hash()));
 }
 

@@ -10,7 +10,7 @@ SOURCE = {".cpp", ".hpp", ".h", ".cu", ".cuh", ".in"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
 # Third-party headers, by who may see them.
 THIRD = {
-    "tbb": re.compile(r"^(tbb|oneapi/tbb)/"), "omp": re.compile(r"^omp\.h$"), "eigen": re.compile(r"^Eigen/"),
+    "tbb": re.compile(r"^(tbb|oneapi/tbb)/"), "omp": re.compile(r"^omp\.h$"), "eigen": re.compile(r"^(unsupported/)?Eigen/"),
     "embree": re.compile(r"^embree[34]/"), "highway": re.compile(r"^hwy/"), "toml": re.compile(r"^toml\+\+/"),
     "cli": re.compile(r"^CLI/"), "json": re.compile(r"^nlohmann/"), "png": re.compile(r"^png\.h$"),
     "zlib": re.compile(r"^zlib\.h$"), "fmt": re.compile(r"^fmt/"), "zstd": re.compile(r"^zstd\.h$"),
@@ -27,7 +27,7 @@ ROOMS = {
     "raycast/include": (("evigrid/raycast/",), set()),
     "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt", "png", "yaml", "tinyobj", "tbb"}),
     "scenes/include": (("evigrid/scenes/", "evigrid/raycast/"), set()),
-    "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree"}),
+    "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree", "eigen"}),
 }
 OTHERS = {"evigrid/raycast/": "raycast", "evigrid/scenes/": "scenes"}
 

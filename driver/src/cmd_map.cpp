@@ -19,6 +19,7 @@ struct Args {
   std::string scans;                 ///< empty: all
   std::vector<std::string> sensors;  ///< kinds or names; empty: all
   MappingOptions mapping;
+  JournalFile journal;
 };
 
 /// A map needs poses: a log without any is mapped only where the user says that the robot stood still.
@@ -46,7 +47,7 @@ void map_log(const Args& args) {
   require_poses(log, args);
   if (!args.scans.empty()) keep_scans(log, args.scans);
   if (!args.sensors.empty()) keep_sensors(log, args.sensors);
-  const Fused fused = fuse(log, args.mapping, plan);
+  const Fused fused = fuse(log, args.mapping, plan, args.journal);
   nlohmann::ordered_json origin = log_origin(log);
   origin["input"] = args.logs;
   if (!args.scans.empty()) origin["scans_chosen"] = args.scans;
@@ -65,9 +66,13 @@ void add_map(CLI::App& app) {
   command->add_option("--sensors", args->sensors, "map these kinds or names of sensors alone, e.g. sonar")
       ->delimiter(',');
   add_mapping_options(*command, args->mapping);
+  CLI::Option* journal =
+      command->add_option("--journal", args->journal.path,
+                          "record each scan in this new file before it is fused; a killed run loses nothing");
+  command->add_flag("--resume", args->journal.resume, "go on with the --journal of a run that ended early")
+      ->needs(journal);
   command->footer(
-      describe_outputs() +
-      "Formats (found by content; --format names one):\n" + describe_formats() +
+      describe_outputs() + "Formats (found by content; --format names one):\n" + describe_formats() +
       "\nCARMEN: values within 5 cm of the log's largest range mean \"no return\" if there are at least two and they "
       "lie\nbeyond 20 m; ranges above 1000 m are refused as absurd. Ring: matched by time stamp; 5110 mm is no echo.\n"
       "lego, bigwheelbot: poses by dead reckoning from the origin, they drift. uci24 has no poses: give --scans.\n\n"
@@ -76,6 +81,7 @@ void add_map(CLI::App& app) {
       "  evigrid map ring/ -o out --rule pcr5 --model li2014\n"
       "  evigrid map Garden.txt -o out --sensors sonar --max-range 2.5\n"
       "  evigrid map sensor_readings_24.data -o out --scans 120\n"
+      "  evigrid map intel.log.gz -o out --journal intel.journal      and, after a crash, the same with --resume\n"
       "  evigrid map intel.log.gz -o out --threads 2 --executor openmp --kernel avx2 --json -\n");
   command->callback([args] { map_log(*args); });
 }

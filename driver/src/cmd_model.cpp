@@ -12,6 +12,7 @@
 #include "log/line_reader.hpp"
 #include "model_options.hpp"
 #include "options.hpp"
+#include "revision/network.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -27,7 +28,22 @@ struct Args {
   std::vector<std::string> params;
   double cell_m = 0.05;
   bool grid = false;
+  std::string revision;
+  std::size_t sensor = 0;
 };
+
+/// The network of that sensor, of this model.
+Network network_of(const Args& args) {
+  for (const Revision& r : read_revisions(args.revision)) {
+    if (r.sensor != args.sensor) continue;
+    if (r.model != args.model) {
+      throw InputError(
+          fmt::format("--revision: {} revises {} for sensor {}, not {}", args.revision, r.model, r.sensor, args.model));
+    }
+    return r.network;
+  }
+  throw InputError(fmt::format("--sensor: {} holds no sensor {}", args.revision, args.sensor));
+}
 
 struct Point {
   double d_m, theta_deg;
@@ -81,11 +97,17 @@ void evaluate_points(const Args& args) {
     for (const Point& p : grid(s, args.reading_m)) points.push_back(p);
   }
   if (points.empty()) throw InputError("--at: no point named; one or more d,theta_deg, or --grid");
+  std::optional<Network> network;
+  if (!args.revision.empty()) network = network_of(args);
   fmt::memory_buffer csv;
   auto to = std::back_inserter(csv);
   fmt::format_to(to, "d_m,theta_deg,e,o,u,c\n");
   for (const Point& p : points) {
-    const ModelMass m = evaluate(s, args.reading_m, p.d_m, p.theta_deg * kDeg, args.cell_m);
+    ModelMass m = evaluate(s, args.reading_m, p.d_m, p.theta_deg * kDeg, args.cell_m);
+    if (network && m.u != 1) {  // outside its support the model says nothing, and nothing is revised
+      const Gbba r = revise(*network, gbba(m));
+      m = {r[0], r[1], r[2], r[3]};
+    }
     fmt::format_to(to, "{},{},{:.9g},{:.9g},{:.9g},{:.9g}\n", p.d_m, p.theta_deg, m.e, m.o, m.u, m.c);
   }
   std::cout << std::string_view(csv.data(), csv.size());
@@ -106,6 +128,8 @@ void add_model(CLI::App& app) {
   command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable");
   command->add_option("--cell", args->cell_m, "side of a cell, m: moravec1985 shares o among the cells of its arc")
       ->capture_default_str();
+  command->add_option("--revision", args->revision, "revise the masses by this file of `evigrid train`");
+  command->add_option("--sensor", args->sensor, "which sensor of that file")->capture_default_str();
   command->footer(
       "Writes CSV d_m,theta_deg,e,o,u,c: masses of empty, occupied, unknown, and the paradoxical mass of li2006 and\n"
       "li2014. probability: e = 1 - P, o = P. fuzzy, moravec1985: e and o are memberships, u = (1-e)(1-o) neither, c = "

@@ -8,6 +8,7 @@ namespace evigrid::driver {
 void add_map(CLI::App& app);
 void add_log(CLI::App& app);
 void add_calibrate(CLI::App& app);
+void add_train(CLI::App& app);
 void add_run(CLI::App& app);
 void add_cast(CLI::App& app);
 void add_compare(CLI::App& app);
@@ -16,6 +17,7 @@ void add_model(CLI::App& app);
 void add_info(CLI::App& app);
 void add_show(CLI::App& app);
 void add_diff(CLI::App& app);
+void add_merge(CLI::App& app);
 void add_paper(CLI::App& app);
 void add_cycle(CLI::App& app);
 

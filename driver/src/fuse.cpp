@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "error.hpp"
+#include "map_journal.hpp"
 #include "mapping.hpp"
 #include "model_options.hpp"
 #include "out/layers.hpp"
@@ -82,6 +83,7 @@ Sensor configured(const LogSensor& from_log, const MappingOptions& o, bool mixed
   const double own = from_log.stated || s.reliability < 1 ? s.reliability : fan ? 1.0 : 0.9;
   s.reliability = o.reliability.value_or(own);
   if (o.contextual.size() == 2) s.reliability_if_empty = o.contextual[0], s.reliability_if_occupied = o.contextual[1];
+  apply_dependence(o.dependence, s);
   if (const auto errors = check(s); !errors.empty()) throw InputError(listed(errors));
   return s;
 }
@@ -92,7 +94,7 @@ bool holds_both_kinds(const Log& log) {
          !std::all_of(log.sensors.begin(), log.sensors.end(), fan);
 }
 
-Fused fuse(const Log& log, const MappingOptions& options, Plan plan) {
+Fused fuse(const Log& log, const MappingOptions& options, Plan plan, const JournalFile& file) {
   if (!options.cell_m && !log.fans()) plan.params.cell_m = 0.1;
   std::vector<Sensor> sensors;
   const bool mixed = holds_both_kinds(log);
@@ -120,9 +122,11 @@ Fused fuse(const Log& log, const MappingOptions& options, Plan plan) {
   for (const LogScan& s : log.scans) {
     scans.push_back({s.stamp_ns, s.T_map_robot, std::span<const Reading>(readings).subspan(s.first, s.count)});
   }
+  MapJournal journal(file, out.map, scans);
   Progress progress("fusing");
   for (std::size_t at = 0; at < scans.size(); at += kBatch) {
     const auto batch = std::span<const Scan>(scans).subspan(at, std::min(kBatch, scans.size() - at));
+    journal.record(at, batch);
     const auto start = Clock::now();
     try {
       out.report += out.map.integrate(batch);
@@ -133,6 +137,7 @@ Fused fuse(const Log& log, const MappingOptions& options, Plan plan) {
     out.fusion_s += seconds_since(start);
     progress.show(at + batch.size(), scans.size());
   }
+  out.journal = journal.facts();
   return out;
 }
 

@@ -31,6 +31,7 @@ struct Fused {
   double fusion_s = 0;  ///< the engine's time alone
   std::vector<std::string> models;
   std::shared_ptr<Executor> executor;
+  nlohmann::ordered_json journal = {};  ///< what became of it; null without one
 };
 
 /// The sensor as the map will use it: the log's geometry with the user's model, range and reliability. `mixed`: the log
@@ -38,7 +39,13 @@ struct Fused {
 Sensor configured(const LogSensor& from_log, const MappingOptions& options, bool mixed);
 bool holds_both_kinds(const Log& log);
 
-Fused fuse(const Log& log, const MappingOptions& options, Plan plan);
+/// A journal of what is fused (evigrid/journal.hpp), or none.
+struct JournalFile {
+  std::string path;     ///< empty: none
+  bool resume = false;  ///< goes on with the one that is there
+};
+/// Throws InputError also when a journal to go on with is of other sensors, parameters or scans than the log.
+Fused fuse(const Log& log, const MappingOptions& options, Plan plan, const JournalFile& journal = {});
 
 /// report.json, masses.npy, map.pgm, map.yaml, map.png, map.evigrid and what the options add: staged in `out` and
 /// committed together. `layers` are the map's; `extra` is merged into the report.

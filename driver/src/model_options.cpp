@@ -85,6 +85,20 @@ double parse_filter(const std::string& text) {
   return tolerance_m;
 }
 
+void apply_dependence(const std::string& text, Sensor& sensor) {
+  if (text.empty()) return;
+  const std::size_t equals = text.find('=');
+  const auto policy = dependence_from_name(std::string_view(text).substr(0, equals));
+  double exponent = 1;
+  const bool number = equals != std::string::npos && parse_number(std::string_view(text).substr(equals + 1), exponent);
+  if (!policy || number != (policy == Dependence::weighted) || (!number && equals != std::string::npos)) {
+    throw InputError(
+        fmt::format("--dependence: '{}' is none of: independent, cautious, once_per_scan, weighted=EXPONENT", text));
+  }
+  sensor.dependence = *policy;
+  sensor.weight_exponent = exponent;
+}
+
 std::string describe_model_params() {
   std::string out = "Parameters of the models (--param MODEL.NAME=VALUE):\n";
   for (const Model model : all_models()) {

@@ -25,6 +25,8 @@ void require_used(const std::vector<ModelSetting>& settings, const std::vector<s
 
 /// --filter: the tolerance of false_reflection, below 0 for none. Throws InputError.
 double parse_filter(const std::string& text);
+/// --dependence: NAME, or weighted=EXPONENT. Empty leaves the sensor as it is.
+void apply_dependence(const std::string& text, Sensor& sensor);
 
 /// For --help: every model's parameters with unit, range and default.
 std::string describe_model_params();

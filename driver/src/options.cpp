@@ -118,6 +118,9 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("--decay", o.decay_s,
                      "s: forgetting; a cell keeps exp(-t/SECONDS) of its masses t after the last reading that told it "
                      "something (rules whose cells are masses; 0: never)");
+  command.add_option("--dependence", o.dependence,
+                     "what readings of one scan are to one another where they overlap: independent, cautious, "
+                     "once_per_scan, or\nweighted=EXPONENT in (0, 1] (rules whose cells are masses)");
   command.add_option("--filter", o.filter,
                      "drop readings before fusing: false_reflection[=METRES], by their neighbours in a ring (Li et al. "
                      "2014; default 0.1), or none");

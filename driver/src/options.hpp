@@ -20,6 +20,7 @@ struct MappingOptions {
   std::vector<std::string> params;      ///< of sensor models: MODEL.NAME=VALUE
   bool params_of_other_models = false;  ///< compare gives each row those of all rows
   std::optional<double> decay_s;        ///< empty: the scene's, or never
+  std::string dependence;               ///< of a scan's readings; empty: the scene's, or independent
   std::string filter;                   ///< of readings; empty: the scene's, or none
   std::vector<double> contextual;  ///< empty, or reliability if empty and if occupied
   bool clear_no_return = false;

@@ -36,12 +36,14 @@ int run_program(int argc, const char* const* argv) {
     add_run(app);
     add_log(app);
     add_calibrate(app);
+    add_train(app);
     add_cast(app);
     add_compare(app);
     add_combine(app);
     add_model(app);
     add_show(app);
     add_diff(app);
+    add_merge(app);
     add_paper(app);
     add_cycle(app);
     add_info(app);

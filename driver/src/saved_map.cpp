@@ -9,14 +9,15 @@
 
 namespace evigrid::driver {
 
-SavedMap open_saved_map(const std::string& path) {
+SavedMap open_saved_map(const std::string& path, std::shared_ptr<Executor> executor) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   const fs::path file = fs::is_directory(path, ignored) ? fs::path(path) / kMapFile : fs::path(path);
   try {
     MapFileInfo info = inspect(file);
     // The file may be anyone's: what it says of memory is not believed.
-    return {file.string(), std::move(info), load(file, {.memory_cap_bytes = MapParams{}.memory_cap_bytes})};
+    return {file.string(), std::move(info),
+            load(file, {.executor = std::move(executor), .memory_cap_bytes = MapParams{}.memory_cap_bytes})};
   } catch (const MapFileError& bad) {
     throw InputError(bad.what());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A saved map as commands name it: the file, or the folder that `map` and `run` wrote.
 #pragma once
+#include <memory>
 #include <string>
 
 #include "evigrid/io.hpp"
@@ -16,7 +17,7 @@ struct SavedMap {
 };
 
 /// Throws InputError naming the file and what is wrong with it.
-SavedMap open_saved_map(const std::string& path);
+SavedMap open_saved_map(const std::string& path, std::shared_ptr<Executor> executor = nullptr);
 
 /// "pcr5, cell 0.05 m": the line that titles a picture of it.
 std::string describe_map(const SavedMap&);

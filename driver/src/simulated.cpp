@@ -31,6 +31,8 @@ Sensor common(const Spec& spec) {
   s.max_range_m = spec.max_range_m;
   s.reliability = spec.reliability;
   s.decay_s = spec.decay_s;
+  if (const auto policy = dependence_from_name(spec.dependence)) s.dependence = *policy;
+  s.weight_exponent = spec.weight_exponent;
   for (const auto& [model, values] : spec.parameters) {
     for (const auto& [field, value] : values) set_model_param(s, parse_model(model), field, value);
   }
@@ -106,6 +108,9 @@ std::string embedded_scene_names() {
 scenes::Vocabulary vocabulary() {
   scenes::Vocabulary words;
   for (const Rule rule : all_rules()) words.rules.emplace_back(name(rule));
+  for (const Dependence d :
+       {Dependence::independent, Dependence::cautious, Dependence::once_per_scan, Dependence::weighted})
+    words.dependences.emplace_back(name(d));
   for (const Model model : all_models())
     (model == Model::beam ? words.laser_models : words.sonar_models).emplace_back(name(model));
   for (const Model model : all_models()) {

@@ -119,6 +119,7 @@ void write_results(OutDir& out, const Log& log, const Fused& fused, const Layers
     out.write("occupancy.npy", occupancy_npy(fused.map, layers.rect));
   }
   out.write_by(kMapFile, [&](std::ostream& file) { save(fused.map, file); });
+  if (!fused.journal.is_null()) report["journal"] = fused.journal;
   for (const auto& [key, value] : extra.items()) report[key] = value;
   report["fusion_s"] = fused.fusion_s;
   report["wall_s"] = seconds_since(start);

@@ -41,7 +41,8 @@ std::uint64_t through_double(Rule rule, Planes<const float> a, Planes<const floa
 }  // namespace
 
 const kernels::KernelTable& table_of(Kernel kernel) {
-  if (!kernel_available(kernel)) throw std::invalid_argument("kernel: " + std::string(name(kernel)) + " cannot run here");
+  if (!kernel_available(kernel))
+    throw std::invalid_argument("kernel: " + std::string(name(kernel)) + " cannot run here");
   // Beside a device the processor does what is not the device's: compiling, binning, reading out.
   const kernels::KernelTable* table = kernels::find_table(name(kernel == Kernel::cuda ? Kernel::automatic : kernel));
   return *table;

@@ -11,6 +11,7 @@
 #include "rule_kernels.hpp"
 #include "scan/copy_tiles.hpp"
 #include "scan/gate.hpp"
+#include "scan/shield.hpp"
 #include "scratch.hpp"
 
 namespace evigrid {
@@ -20,6 +21,7 @@ struct Batch {
   const Pipeline& p;
   Scratch& s;
   kernels::RuleArgs rule;
+  bool dependent = false;  // some sensor's readings of one scan are no distinct evidence
 };
 
 kernels::RuleArgs args_of(const MapParams& p, bool undo) {
@@ -46,6 +48,8 @@ class RegionTask {
       std::size_t end = i + 1;
       while (end < reaches.size() && reaches[end].footprint == reaches[i].footprint) ++end;
       const Footprint& f = b_.s.footprints[reaches[i].footprint];
+      if (b_.dependent && (i == 0 || f.scan != b_.s.footprints[reaches[i - 1].footprint].scan)) end_scan();
+      stamp_ns_ = f.stamp_ns;
       if (f.fan) {
         fuse_cones();
         for (; i < end; ++i) fuse_fan(f, b_.s.plan.tiles[reaches[i].tile]);
@@ -55,6 +59,7 @@ class RegionTask {
       }
     }
     fuse_cones();
+    if (b_.dependent) end_scan();
     for (const Reach& r : reaches) {
       TileWork& w = b_.s.plan.tiles[r.tile];
       if (w.reached == 0 || w.touched) continue;
@@ -86,8 +91,12 @@ class RegionTask {
       args.planes = b_.p.store.planes();
       args.conflict_plane = b_.p.params.keep_conflict && !b_.p.undo;
       args.rule = b_.rule;
+      if (c.footprint->sensor->sensor.dependence != Dependence::independent) {
+        hear_cone(*c.footprint, args);
+        continue;
+      }
       const auto fuse = [&] { b_.p.table.fuse_cone[rule_][c.footprint->cone_model](args, c.footprint->cone, stats); };
-      fuse_forgetting(*c.footprint, fuse, [&](auto&& hold) {
+      fuse_forgetting(c.footprint->stamp_ns, c.footprint->sensor->sensor.decay_s, fuse, [&](auto&& hold) {
         for (const kernels::ZoneMicros& zone : args.zone) std::for_each(zone.cells, zone.cells + zone.count, hold);
       });
     }
@@ -107,36 +116,90 @@ class RegionTask {
     b_.p.table.select_fan(q, args.x0, args.y0, micros);
     args.fan = &micros;
     const std::uint64_t before = stats.cells;
-    fuse_forgetting(
-        f, [&] { b_.p.table.fuse_fan[rule_](args, q, stats); },
-        [&](auto&& hold) {
-          const auto each = [&](float micro) {
-            hold(args.cells + static_cast<std::ptrdiff_t>(micro) * kernels::kMicroCells * args.planes);
-          };
-          std::for_each(micros.empty, micros.empty + micros.empty_count, each);
-          std::for_each(micros.near, micros.near + micros.near_count, each);
-          std::for_each(micros.edge, micros.edge + (micros.edge_count - micros.near_count), each);
-        });
+    if (f.sensor->sensor.dependence != Dependence::independent) {
+      hear_fan(f, args);
+    } else {
+      fuse_fan_at_once(f, args);
+    }
     if (stats.cells == before) return;
     w.reached |= blocks_of(micros.empty, micros.empty_count) | blocks_of(micros.near, micros.near_count) |
                  blocks_of(micros.edge, micros.edge_count - micros.near_count);
+  }
+  /// Calls visit(number) for each micro-tile of the tile that the fan may touch.
+  template <class Visit>
+  static void each_micro_of(const kernels::FanMicros& micros, Visit&& visit) {
+    const auto each = [&](float micro) { visit(static_cast<std::ptrdiff_t>(micro)); };
+    std::for_each(micros.empty, micros.empty + micros.empty_count, each);
+    std::for_each(micros.near, micros.near + micros.near_count, each);
+    std::for_each(micros.edge, micros.edge + (micros.edge_count - micros.near_count), each);
+  }
+  void fuse_fan_at_once(const Footprint& f, const kernels::TileArgs& args) {
+    const kernels::FanReading& q = f.fan->reading;
+    fuse_forgetting(
+        f.stamp_ns, f.sensor->sensor.decay_s, [&] { b_.p.table.fuse_fan[rule_](args, q, stats); },
+        [&](auto&& hold) {
+          each_micro_of(*args.fan,
+                        [&](std::ptrdiff_t m) { hold(args.cells + m * kernels::kMicroCells * args.planes); });
+        });
+  }
+
+  /// Readings that are no distinct evidence: what they say is kept until their scan is over.
+  DependentReadings& together(const Sensor& s) { return s_.together[static_cast<int>(s.dependence) - 1]; }
+  void hear_cone(const Footprint& f, kernels::ConeArgs args) {
+    std::size_t count = 0, at = 0;
+    for (const kernels::ZoneMicros& zone : args.zone) count += static_cast<std::size_t>(zone.count);
+    if (count == 0) return;
+    float* const blank = s_.blank.blank(b_.p.store, count);
+    const std::ptrdiff_t micro = kernels::kMicroCells * args.planes;
+    s_.blank_cells.resize(count + kernels::kConeZones * kernels::kConeAhead);
+    kernels::ConeArgs heard = args;
+    heard.conflict_plane = heard.rule.con = heard.rule.last = false;
+    float** listed = s_.blank_cells.data();
+    for (kernels::ZoneMicros& zone : heard.zone) {
+      zone.cells = listed;
+      for (int i = 0; i < zone.count; ++i) *listed++ = blank + static_cast<std::ptrdiff_t>(at++) * micro;
+      for (int i = 0; i < kernels::kConeAhead; ++i) *listed++ = blank;
+    }
+    b_.p.table.fuse_cone[rule_][f.cone_model](heard, f.cone, stats);
+    for (int z = 0; z < kernels::kConeZones; ++z) {
+      for (int i = 0; i < args.zone[z].count; ++i)
+        together(f.sensor->sensor).add(f.sensor->sensor, args.zone[z].cells[i], heard.zone[z].cells[i]);
+    }
+  }
+  void hear_fan(const Footprint& f, const kernels::TileArgs& args) {
+    kernels::TileArgs heard = args;
+    heard.cells = s_.blank.blank(b_.p.store, kernels::kMicrosPerTile);
+    heard.conflict_plane = heard.rule.con = heard.rule.last = false;
+    b_.p.table.fuse_fan[rule_](heard, f.fan->reading, stats);
+    each_micro_of(*args.fan, [&](std::ptrdiff_t m) {
+      const std::ptrdiff_t at = m * kernels::kMicroCells * args.planes;
+      together(f.sensor->sensor).add(f.sensor->sensor, args.cells + at, heard.cells + at);
+    });
+  }
+  void end_scan() {
+    fuse_cones();
+    for (DependentReadings& d : s_.together) {
+      if (d.empty()) continue;
+      fuse_forgetting(
+          stamp_ns_, 0, [&] { d.fuse(b_.p.params, b_.p.store, stats); }, [&](auto&& hold) { d.each_micro(hold); });
+    }
   }
 
   /// One reading. In maps that forget, each micro-tile that it may touch is aged before; `each_micro` calls what it is
   /// given with each of them.
   template <class Fuse, class EachMicro>
-  void fuse_forgetting(const Footprint& f, Fuse&& fuse, EachMicro&& each_micro) {
+  void fuse_forgetting(std::int64_t stamp_ns, double own_s, Fuse&& fuse, EachMicro&& each_micro) {
     if (b_.p.params.decay_s <= 0) return fuse();
-    const double own = f.sensor->sensor.decay_s;
     each_micro([&](float* micro) { s_.decayed.hold(micro); });
-    s_.decayed.age(b_.p.store, f.stamp_ns);
+    s_.decayed.age(b_.p.store, stamp_ns);
     fuse();
-    s_.decayed.settle(b_.p.store, {f.stamp_ns, static_cast<float>(own > 0 ? own : b_.p.params.decay_s)});
+    s_.decayed.settle(b_.p.store, {stamp_ns, static_cast<float>(own_s > 0 ? own_s : b_.p.params.decay_s)});
   }
 
   const Batch& b_;
   RegionScratch& s_;
   int rule_;
+  std::int64_t stamp_ns_ = 0;  // of the scan at hand
 };
 
 /// Compiling is independent of order. A single scan's few readings are not worth waking other threads.
@@ -161,11 +224,16 @@ void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
       &all_of);
 }
 
+bool any_dependent(const Pipeline& p) noexcept {
+  return std::any_of(p.sensors.begin(), p.sensors.end(),
+                     [](const CompiledSensor& c) { return c.sensor.dependence != Dependence::independent; });
+}
+
 /// Every region by its task, regions in parallel.
 void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule, int threads) {
   s.stats.assign(s.plan.regions(), {});
   if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
-  Batch batch{p, s, rule};
+  Batch batch{p, s, rule, any_dependent(p)};
   p.executor.run(
       static_cast<std::int64_t>(s.plan.regions()),
       [](void* context, std::int64_t index, int worker) {
@@ -181,6 +249,10 @@ void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule, 
 /// False where there is no device, and when it fails: the map then goes on without it, and says why.
 bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) {
   if (p.device == nullptr || !*p.device) return false;
+  if (any_dependent(p) || !p.admission.guarded.empty()) {  // tiles change behind its back: they are sent again later
+    *p.note = "sensors with dependent readings and protected areas are fused by the processor";
+    return false;
+  }
   try {
     s.stats.push_back((*p.device)->fuse(p, s, rule));
     return true;
@@ -197,6 +269,8 @@ bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rul
 Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   Report report;
   s.footprints.clear();
+  std::size_t number = 0;
+  s.scan_end.clear();
   for (const Scan& scan : scans) {  // gate: compile what can be used, count the rest
     if (!p.undo) {
       std::int64_t& now_ns = p.store.now_ns;
@@ -204,15 +278,21 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
       if (backwards) ++report.stamps_backwards;
       if (!backwards || p.params.decay_s <= 0) now_ns = scan.stamp_ns;  // what is forgotten does not come back
     }
+    const std::size_t first = s.footprints.size();
     gate_scan(scan, p.sensors, p.params, s.footprints, report);
+    for (std::size_t i = first; i < s.footprints.size(); ++i) s.footprints[i].scan = number;
+    ++number;
+    s.scan_end.push_back(s.footprints.size());
   }
   compile_all(s.footprints, p);
   const int threads = p.executor.concurrency();
-  bin(s.footprints, p.table, p.store, threads, s.plan);
+  bin(s.footprints, p.table, p.store, p.admission, threads, s.plan);
   copy_what_views_see(s.plan, p.store, p.executor);
+  const Shield shield(s.plan, p.admission, p.store);
   const kernels::RuleArgs rule = args_of(p.params, p.undo);
   s.stats.clear();
   if (!fused_by_device(p, s, rule)) fuse_regions(p, s, rule, threads);
+  shield.restore();
   for (const kernels::Stats& region : s.stats) {
     report.cells_updated += region.cells;
     report.total_conflicts += region.total_conflicts;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evigrid/map.hpp"
+#include "grid/admission.hpp"
 #include "grid/change_log.hpp"
 #include "grid/tile_store.hpp"
 #include "scan/compiled.hpp"
@@ -23,6 +24,7 @@ struct Pipeline {
   ChangeLog& changes;
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
+  const Admission& admission;
   bool undo = false;  // takes the scans back
   std::unique_ptr<DeviceMap>* device = nullptr;  // null, or what fuses instead of the table; dropped when it fails,
   std::string* note = nullptr;                   // and why

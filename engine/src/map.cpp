@@ -4,15 +4,17 @@
 
 #include <stdexcept>
 
+#include "combine_blocks.hpp"
 #include "device/device_map.hpp"
 #include "evigrid/combine.hpp"
 #include "evigrid/view.hpp"
 #include "grid/readout.hpp"
 #include "grid/tile_catalog.hpp"
 #include "grid/view_state.hpp"
-#include "combine_blocks.hpp"
 #include "integrate.hpp"
 #include "io/map_access.hpp"
+#include "life/edit.hpp"
+#include "life/known_areas.hpp"
 #include "params/table.hpp"
 #include "scratch.hpp"
 
@@ -29,6 +31,7 @@ struct Map::Impl {
   std::shared_ptr<const std::vector<Sensor>> sensors = std::make_shared<const std::vector<Sensor>>();  // views keep it
   std::vector<std::uint64_t> tiles_per_worker;
   Scratch scratch;
+  Admission admission;
   std::unique_ptr<DeviceMap> device;  // kernel cuda alone
   std::string kernel_note;
 
@@ -45,10 +48,13 @@ struct Map::Impl {
       kernel_note = std::string(failed.what()) + "; the map is made on the processor";
     }
   }
-
-  Pipeline pipeline(bool undo) {
-    return {params, *table, compiled, store, changes, *executor, tiles_per_worker, undo, &device, &kernel_note};
+  [[nodiscard]] Pipeline pipeline() noexcept {
+    Pipeline p{params, *table, compiled, store, changes, *executor, tiles_per_worker, admission};
+    p.device = &device;
+    p.note = &kernel_note;
+    return p;
   }
+  [[nodiscard]] Grid grid() noexcept { return {params, store, changes}; }
 };
 
 Map::Map(const MapParams& params, std::shared_ptr<Executor> executor) {
@@ -77,8 +83,7 @@ SensorId Map::add(const Sensor& sensor) {
 
 Report Map::integrate(const Scan& scan) { return integrate(std::span<const Scan>(&scan, 1)); }
 Report Map::integrate(std::span<const Scan> scans) {
-  Impl& m = *impl_;
-  return evigrid::integrate(m.pipeline(false), m.scratch, scans);
+  return evigrid::integrate(impl_->pipeline(), impl_->scratch, scans);
 }
 
 Report Map::undo(const Scan& scan) { return undo(std::span<const Scan>(&scan, 1)); }
@@ -86,9 +91,11 @@ Report Map::undo(std::span<const Scan> scans) {
   Impl& m = *impl_;
   if (!state_is_sum(m.params.rule)) {
     throw std::logic_error("undo: a map of the rule " + std::string(name(m.params.rule)) +
-                           " cannot take a scan back: its cells are no sums");
+                           " cannot take a scan back: its cells are no sums (a RevisableMap can)");
   }
-  return evigrid::integrate(m.pipeline(true), m.scratch, scans);
+  Pipeline back = m.pipeline();
+  back.undo = true;
+  return evigrid::integrate(back, m.scratch, scans);
 }
 
 void Map::advance_to(std::int64_t stamp_ns) noexcept {
@@ -118,8 +125,8 @@ std::uint64_t Map::hash() const { return hash_cells(impl_->store); }
 MapView Map::view() {
   Impl& m = *impl_;
   auto catalog = m.cataloguer.bring_up_to_date(m.store, m.changes);
-  return MapView(std::make_shared<const ViewState>(
-      m.store, std::move(catalog), ViewState::Facts{m.params, m.sensors, m.changes.losses()}));
+  return MapView(std::make_shared<const ViewState>(m.store, std::move(catalog),
+                                                   ViewState::Facts{m.params, m.sensors, m.changes.losses()}));
 }
 
 void Map::clear() {
@@ -127,6 +134,28 @@ void Map::clear() {
   if (impl_->device) impl_->device->forget();
   impl_->changes.clear();
 }
+void Map::clear(CellRect rect) { forget(impl_->grid(), rect); }
+void Map::set_window(CellRect window) {
+  impl_->admission.window.reset();
+  if (window.empty()) return;
+  impl_->admission.window = tiles_of(window);
+  drop_outside(impl_->grid(), *impl_->admission.window);
+}
+void Map::protect(CellRect area) {
+  if (area.empty()) return;
+  freeze(impl_->grid(), area);
+  impl_->admission.guarded.push_back(area);
+}
+void Map::unprotect() { impl_->admission.guarded.clear(); }
+std::span<const CellRect> Map::protected_areas() const noexcept { return impl_->admission.guarded; }
+void Map::write(CellRect rect, std::span<const Mass> masses, std::ptrdiff_t stride) {
+  write_masses(impl_->grid(), rect, masses, stride);
+}
+void Map::write(CellRect rect, std::span<const std::int8_t> occupancy, std::ptrdiff_t stride, double certainty) {
+  write_occupancy(impl_->grid(), rect, occupancy, stride, certainty);
+}
+void Map::write(std::span<const Point2> polygon, const Mass& mass) { write_polygon(impl_->grid(), polygon, mass); }
+
 const MapParams& Map::params() const noexcept { return impl_->params; }
 std::span<const Sensor> Map::sensors() const noexcept { return *impl_->sensors; }
 std::string_view Map::kernel_name() const noexcept { return impl_->device ? "cuda" : impl_->table->name; }
@@ -139,6 +168,10 @@ std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
 const TileSource& MapAccess::source(const Map& m) noexcept { return m.impl_->store; }
 TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
+Admission& MapAccess::admission(Map& m) noexcept { return m.impl_->admission; }
+Scratch& MapAccess::scratch(Map& m) noexcept { return m.impl_->scratch; }
+const Scratch& MapAccess::scratch(const Map& m) noexcept { return m.impl_->scratch; }
+Pipeline MapAccess::pipeline(Map& m) noexcept { return m.impl_->pipeline(); }
 std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->store.now_ns; }
 std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->store.now_ns; }
 void MapAccess::use_device(Map& m, std::unique_ptr<DeviceMap> device) { m.impl_->device = std::move(device); }

@@ -5,6 +5,7 @@
 
 #include "grid/decay.hpp"
 #include "scan/bin.hpp"
+#include "scan/dependent.hpp"
 
 namespace evigrid {
 
@@ -20,10 +21,14 @@ struct RegionScratch {
   std::vector<PendingCone> pending;
   kernels::FanMicros fan_micros;
   DecayedUpdate decayed;
+  DependentReadings together[3];  // a policy: Dependence, without independent
+  BlankMicros blank;
+  std::vector<float*> blank_cells;
 };
 
 struct Scratch {
   std::vector<Footprint> footprints;
+  std::vector<std::size_t> scan_end;  // of each scan, the end of its footprints
   Plan plan;
   std::vector<kernels::Stats> stats;  // a region
   std::vector<RegionScratch> workers;

@@ -20,6 +20,10 @@ constexpr auto kKernelNames = std::to_array<Named<Kernel>>(
      {Kernel::cuda, "cuda"}});
 constexpr auto kLikelihoodNames =
     std::to_array<Named<Likelihood>>({{Likelihood::betp, "betp"}, {Likelihood::plp, "plp"}});
+constexpr auto kDependenceNames = std::to_array<Named<Dependence>>({{Dependence::independent, "independent"},
+                                                                    {Dependence::cautious, "cautious"},
+                                                                    {Dependence::once_per_scan, "once_per_scan"},
+                                                                    {Dependence::weighted, "weighted"}});
 constexpr auto kRefusalNames = std::to_array<Named<Refusal>>({{Refusal::not_a_number, "not_a_number"},
                                                               {Refusal::too_close, "too_close"},
                                                               {Refusal::negative, "negative"},
@@ -53,6 +57,10 @@ std::string_view name(Likelihood l) noexcept { return find_name(kLikelihoodNames
 std::string_view name(Refusal r) noexcept { return find_name(kRefusalNames, r); }
 std::optional<Likelihood> likelihood_from_name(std::string_view s) noexcept {
   return find_value<Likelihood>(kLikelihoodNames, s);
+}
+std::string_view name(Dependence d) noexcept { return find_name(kDependenceNames, d); }
+std::optional<Dependence> dependence_from_name(std::string_view s) noexcept {
+  return find_value<Dependence>(kDependenceNames, s);
 }
 std::optional<Kernel> kernel_from_name(std::string_view s) noexcept { return find_value<Kernel>(kKernelNames, s); }
 

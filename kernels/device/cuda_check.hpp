@@ -30,7 +30,8 @@ class CudaBuffer {
     if (bytes > bytes_) {
       release();
       const std::size_t more = bytes + bytes / 4;
-      cuda_check(kOnHost ? cudaMallocHost(&at_, more) : cudaMalloc(&at_, more), kOnHost ? "pinned memory" : "memory of the device");
+      cuda_check(kOnHost ? cudaMallocHost(&at_, more) : cudaMalloc(&at_, more),
+                 kOnHost ? "pinned memory" : "memory of the device");
       bytes_ = more;
     }
     return static_cast<T*>(at_);
@@ -51,7 +52,9 @@ class CudaBuffer {
 
 class CudaEvent {
  public:
-  explicit CudaEvent(unsigned flags = cudaEventDefault) { cuda_check(cudaEventCreateWithFlags(&event_, flags), "event"); }
+  explicit CudaEvent(unsigned flags = cudaEventDefault) {
+    cuda_check(cudaEventCreateWithFlags(&event_, flags), "event");
+  }
   ~CudaEvent() { (void)cudaEventDestroy(event_); }
   CudaEvent(const CudaEvent&) = delete;
   CudaEvent& operator=(const CudaEvent&) = delete;

@@ -28,7 +28,7 @@ struct DeviceTile {
 
 /// Consecutive readings of one kind: all cones of one model, or all fans. They are fused one run after the other.
 struct DeviceRun {
-  int model = 0;                          // a ConeModel; −1: fans
+  int model = 0;  // a ConeModel; −1: fans
   std::uint32_t first_part = 0, parts = 0;
 };
 /// What a run has for one tile: readings in their order.

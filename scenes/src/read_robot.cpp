@@ -14,13 +14,16 @@ constexpr Limits kRange_m{0, 1000}, kMount_m{-100, 100}, kTurn_deg{-360, 360};
 
 /// Limits, noise and reliability: what sonars and lasers share. `base` has the values of what is not said.
 template <class Sensor>
-void read_common(Table& t, Sensor& s, bool range_required) {
+void read_common(Table& t, Sensor& s, bool range_required, const Vocabulary& words) {
   s.min_range_m = t.number_or("min_range_m", kRange_m, s.min_range_m);
   s.max_range_m =
       range_required ? t.number("max_range_m", kRange_m) : t.number_or("max_range_m", kRange_m, s.max_range_m);
   if (s.max_range_m <= s.min_range_m) t.fail("max_range_m", "must be greater than min_range_m");
   s.reliability = t.number_or("reliability", {0, 1, true}, s.reliability);
   s.decay_s = t.number_or("decay_s", {0, 1e9}, s.decay_s);
+  s.dependence = t.text_or("dependence", s.dependence);
+  if (t.has("dependence")) require_known(t, "dependence", s.dependence, words.dependences);
+  s.weight_exponent = t.number_or("weight_exponent", {1e-3, 1}, s.weight_exponent);
   s.noise.sigma_m = t.number_or("noise_sigma_m", {0, 10}, s.noise.sigma_m);
   s.noise.ratio = t.number_or("noise_ratio", {0, 1}, s.noise.ratio);
 }
@@ -52,7 +55,7 @@ SonarSpec read_sonar(Table& t, const SonarSpec* base, const Vocabulary& words) {
   const Limits aperture_deg{0, 60, true};
   s.aperture_rad = required("aperture_deg") ? t.angle("aperture_deg", aperture_deg)
                                             : t.angle_or("aperture_deg", aperture_deg, s.aperture_rad);
-  read_common(t, s, required("max_range_m"));
+  read_common(t, s, required("max_range_m"), words);
   read_parameters(t, words.sonar_models, words, s.parameters);
   if (t.has("group")) s.group = static_cast<int>(t.integer("group", 0, kMostGroups - 1));
   return s;
@@ -99,7 +102,7 @@ LaserSpec read_laser(Table& t, const Vocabulary& words) {
   constexpr double kRound = 1e-9;  // 360 steps of one degree are a circle, whatever their sum rounds to
   if (s.step_rad * s.beams > 2 * std::numbers::pi + kRound)
     t.fail("step_deg", "times beams is more than a full circle");
-  read_common(t, s, true);
+  read_common(t, s, true, words);
   read_parameters(t, words.laser_models, words, s.parameters);
   t.refuse_unknown_keys();
   return s;

@@ -43,6 +43,10 @@ TEST(Compare, EveryRuleAndModelOfASceneOnce) {
     pairs.insert(row["rule"].get<std::string>() + ' ' + row["model"].get<std::string>());
     EXPECT_GT(row["cells_updated"], 1000);
     EXPECT_GT(row["score"]["within_one_cell"]["recall"], 0.5);
+    EXPECT_GT(row["rerender"]["readings"], 500);
+    EXPECT_LT(row["rerender"]["median_m"], 0.5);
+    const int flips = std::stoi(row["readings_to_flip"].get<std::string>());  // after 20: Dempster 21, PCR5 3
+    EXPECT_NEAR(flips, row["rule"] == "pcr5" ? 3 : 21, row["rule"] == "pcr5" ? 0 : 1);
   }
   EXPECT_EQ(rows.size(), 8u);
   EXPECT_EQ(pairs,

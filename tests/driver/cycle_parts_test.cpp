@@ -6,7 +6,7 @@
 #include <random>
 #include <thread>
 
-#include "cycle/bounded_queue.hpp"
+#include "evigrid/bounded_queue.hpp"
 #include "cycle/cost_tiles.hpp"
 #include "cycle/find_max.hpp"
 #include "cycle/fleet_options.hpp"

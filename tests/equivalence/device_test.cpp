@@ -170,8 +170,8 @@ TEST_P(OnDevice, DenseCombinationGivesTheSameBits) {
       for (int p = 0; p < 5; ++p) all[p].assign(kPairs, -1);
     }
     const Planes<const float> a{in[0].data(), in[1].data(), in[2].data()}, b{in[3].data(), in[4].data(), in[5].data()};
-    const auto totals = combine(rule, a, b, {want[0].data(), want[1].data(), want[2].data(), want[4].data()},
-                                want[3].data(), kPairs);
+    const auto totals =
+        combine(rule, a, b, {want[0].data(), want[1].data(), want[2].data(), want[4].data()}, want[3].data(), kPairs);
     EXPECT_EQ(combine_by_device(*device, rule, a, b, {got[0].data(), got[1].data(), got[2].data(), got[4].data()},
                                 got[3].data(), kPairs),
               totals);

@@ -169,6 +169,39 @@ TEST_P(ReferenceCone, ForgetsByTime) {
   }
 }
 
+// Scans whose readings are no distinct evidence: seven overlapping cones of each policy beside independent ones.
+TEST_P(ReferenceCone, DependentReadingsOfOneScan) {
+  using evigrid::Dependence;
+  for (Rule rule : {Rule::dempster, Rule::pcr5, Rule::germ_pcr2, Rule::yager, Rule::dsmh, Rule::conjunctive}) {
+    for (const double decay_s : {0.0, 2.0}) {
+      SCOPED_TRACE(std::string(name(rule)));
+      Both both({.cell_m = 0.1, .rule = rule, .decay_s = decay_s});
+      std::vector<evigrid::SensorId> ids;
+      for (int i = 0; i < 12; ++i) {
+        Sensor s = sonar(GetParam(), 25);
+        s.reliability = 0.9 - 0.02 * (i % 5);
+        s.T_robot_sensor = {0.05, 0.02, -0.6 + 0.1 * i};
+        s.dependence = static_cast<Dependence>(i % 4);
+        if (s.dependence == Dependence::weighted) s.weight_exponent = i % 3 == 0 ? 0.25 : 0.6;
+        ids.push_back(both.add(s));
+      }
+      for (int i = 0; i < 6; ++i) {
+        std::vector<float> ranges_m(ids.size());
+        std::vector<evigrid::Reading> readings;
+        for (std::size_t k = 0; k < ids.size(); ++k) {
+          ranges_m[k] = 1.0F + 0.07F * static_cast<float>((7 * k + 5 * static_cast<std::size_t>(i)) % 13);
+          readings.push_back({ids[k], {&ranges_m[k], 1}});
+        }
+        both.integrate(evigrid::Scan{i * 400'000'000LL, {0.05 * i, 0.031 * i, 0.2 * i}, readings});
+      }
+      both.expect_equal_reports();
+      const Difference d = both.difference();
+      expect_within_bounds(d);
+      print(std::string(name(GetParam())) + " dependent " + std::string(name(rule)), d);
+    }
+  }
+}
+
 TEST_P(ReferenceCone, UtmSizedCoordinates) {
   for (double cell_m : {0.1, 0.05}) {
     const Difference d = drive_ring(GetParam(), Rule::pcr5, 25, 0.9, {500000.123, 5000000.456, 1.1}, cell_m, 8);

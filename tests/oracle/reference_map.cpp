@@ -55,6 +55,7 @@ void ReferenceMap::integrate(const evigrid::Scan& scan) {
       cone(declared, pose, reading.ranges_m[0]);
     }
   }
+  end_scan();
 }
 
 ReferenceMap::Gate ReferenceMap::gate(const Sensor& sensor, float range_m) {
@@ -190,11 +191,57 @@ void ReferenceMap::sweep(const Declared& declared, const Pose2& pose, double rad
       const double d_squared = dx * dx + dy * dy;
       Source source;
       if (d_squared > disc || !say(dx, dy, d_squared, source)) continue;
-      update(cells_[{x.cell + i, y.cell + j}],
-             discount(contextual(source, declared.sensor.reliability_if_empty, declared.sensor.reliability_if_occupied),
-                      declared.sensor.reliability),
-             declared.sensor);
+      const evigrid::CellIndex at{x.cell + i, y.cell + j};
+      const Sensor& s = declared.sensor;
+      source = discount(contextual(source, s.reliability_if_empty, s.reliability_if_occupied), s.reliability);
+      if (s.dependence != evigrid::Dependence::independent) {
+        hear(at, source, s);
+      } else {
+        update(cells_[at], source, s);
+      }
     }
+}
+
+/// What the rule makes of the reading where nothing is known; of that, mass on empty ∩ occupied is dropped.
+void ReferenceMap::hear(const evigrid::CellIndex& at, const Source& source, const Sensor& sensor) {
+  ++report_.cells_updated;
+  Belief<double, 3> nothing{}, said{};
+  nothing[kUnknown] = 1;
+  said[kEmpty] = source.x, said[kOccupied] = source.y, said[kUnknown] = source.v, said[kBoth] = source.z;
+  const auto m = combine<double, 3>(params_.rule, cell_frame(), nothing, said, kTotalConflictBelow).m;
+  if (m[kEmpty] == 0 && m[kOccupied] == 0) return;
+  const double sum = m[kEmpty] + m[kOccupied] + m[kUnknown];
+  Source alone;
+  alone.x = m[kEmpty] / sum, alone.y = m[kOccupied] / sum, alone.v = m[kUnknown] / sum;
+  heard_[static_cast<std::size_t>(sensor.dependence)][at].push_back({alone, sensor.weight_exponent});
+}
+
+/// Policies by their definition: w = v/(v + x) is the weight of a simple support; cautious takes the least w of each
+/// hypothesis, weighted the product of w^γ; the two supports are then combined by Dempster's rule.
+void ReferenceMap::end_scan() {
+  using evigrid::Dependence;
+  constexpr double kLeastWeighable = 1e-4;
+  for (const Dependence policy : {Dependence::cautious, Dependence::once_per_scan, Dependence::weighted}) {
+    auto& all = heard_[static_cast<std::size_t>(policy)];
+    for (const auto& [at, said] : all) {
+      Source together = said.front().source;
+      if (policy == Dependence::weighted || (policy == Dependence::cautious && said.size() > 1)) {
+        double w1 = 1, w2 = 1;
+        for (const Heard& h : said) {
+          const double v = std::max(h.source.v, kLeastWeighable);
+          const double a = v / (v + h.source.x), b = v / (v + h.source.y);
+          w1 = policy == Dependence::cautious ? std::min(w1, a) : w1 * std::pow(a, h.exponent);
+          w2 = policy == Dependence::cautious ? std::min(w2, b) : w2 * std::pow(b, h.exponent);
+        }
+        const double sum = w1 + w2 - w1 * w2;
+        together.x = (1 - w1) * w2 / sum, together.y = (1 - w2) * w1 / sum, together.v = w1 * w2 / sum;
+      }
+      const auto counted = report_.cells_updated;  // each reading was
+      update(cells_[at], together, {});
+      report_.cells_updated = counted;
+    }
+    all.clear();
+  }
 }
 
 void ReferenceMap::forget(ReferenceCell& cell, std::int64_t now_ns) const {

@@ -69,11 +69,19 @@ class ReferenceMap {
   void fan(const Declared&, const evigrid::Pose2&, std::span<const float> ranges_m);
   void sweep(const Declared&, const evigrid::Pose2&, double radius_cells, const Say&);
   void update(ReferenceCell&, const Source&, const evigrid::Sensor&);
+  void hear(const evigrid::CellIndex&, const Source&, const evigrid::Sensor&);
+  void end_scan();
   void forget(ReferenceCell&, std::int64_t now_ns) const;
 
   evigrid::MapParams params_;
   std::vector<Declared> sensors_;
   ReferenceCells cells_;
+  /// What dependent readings of the scan at hand said, by policy and cell: masses, and γ of their sensors.
+  struct Heard {
+    Source source;
+    double exponent;
+  };
+  std::array<std::unordered_map<evigrid::CellIndex, std::vector<Heard>, CellHash>, 4> heard_;
   ReferenceReport report_;
   std::int64_t stamp_ns_ = 0;  ///< of the scan at hand
   std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();

@@ -23,6 +23,8 @@ void write(Map& map, const testing::Drive& d, int i) {
   Scan scan = d.scans[static_cast<std::size_t>(i) % d.scans.size()];
   scan.T_map_robot.x_m += 2.5 * (i % 6);
   if (i % 97 == 96) map.clear();
+  if (i % 11 == 10) map.set_window({-100 + 8 * (i % 20), -80, 300, 220});  // recentres
+  if (i % 13 == 12) map.clear({-20, -20, 90, 50});
   map.integrate(scan);
 }
 
@@ -39,7 +41,7 @@ TEST(ViewsStress, FourReadersBesideAWriter) {
     Map map = new_map(*d, make_serial_executor());
     for (int i = 0; i < kRounds; ++i) {
       write(map, *d, i);
-      hash_at.resize(map.version() + 1);
+      hash_at.resize(map.version() + 1);  // of those on the way nobody sees one
       hash_at.back() = map.hash();
     }
   }

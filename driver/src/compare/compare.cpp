@@ -94,6 +94,10 @@ Result fuse_one(const Subject& subject, const MappingOptions& options, const Pla
   }
   r.mean_conflict = touched > 0 ? conflict / touched : 0;
   r.ignorance = n > 0 ? unknown / static_cast<double>(n) : 1;
+  Log as_mapped = subject.log;  // by the model and the limits that made the map
+  for (std::size_t i = 0; i < as_mapped.sensors.size(); ++i) as_mapped.sensors[i].sensor = fused.map.sensors()[i];
+  r.rerendered = rerender(out.layers, as_mapped);
+  r.flips = readings_to_flip(plan.params);
   if (truth) r.score = score(out.layers, *truth);
   return out;
 }

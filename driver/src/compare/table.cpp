@@ -17,6 +17,13 @@ struct Column {
 
 std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : ""; }
 
+/// Of the readings compared: those that the map does not expect to hear.
+double silent_share(const Rerendered& r) {
+  return r.readings == 0 ? NAN : static_cast<double>(r.silent) / static_cast<double>(r.readings);
+}
+
+std::string flips(int count) { return count >= kMostFlips ? "never" : fmt::format("{}", count); }
+
 template <double Agreement::*Value, Agreement Score::*How>
 std::string agreement(const CompareRow& r) {
   return r.score ? figure((*r.score).*How.*Value) : "";
@@ -50,6 +57,10 @@ const std::vector<Column>& columns() {
       {"entropy_bits", scored<&Score::entropy>},
       {"mean_conflict", [](const CompareRow& r) { return figure(r.mean_conflict); }},
       {"ignorance", [](const CompareRow& r) { return figure(r.ignorance); }},
+      {"rerender_median_m", [](const CompareRow& r) { return figure(r.rerendered.median_m); }},
+      {"rerender_mean_m", [](const CompareRow& r) { return figure(r.rerendered.mean_m); }},
+      {"rerender_silent_share", [](const CompareRow& r) { return figure(silent_share(r.rerendered)); }},
+      {"readings_to_flip", [](const CompareRow& r) { return flips(r.flips); }},
       {"total_conflicts", [](const CompareRow& r) { return fmt::format("{}", r.total_conflicts); }},
       {"readings_used", [](const CompareRow& r) { return fmt::format("{}", r.readings_used); }},
       {"readings_refused", [](const CompareRow& r) { return fmt::format("{}", r.readings_refused); }},
@@ -103,6 +114,18 @@ std::string to_markdown(const std::vector<CompareRow>& rows) {
   return head + '\n' + rule + '\n' + body;
 }
 
+namespace {
+
+nlohmann::ordered_json to_json(const Rerendered& r) {
+  const auto number = [](double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(); };
+  return {{"readings", r.readings},
+          {"silent_share", number(silent_share(r))},
+          {"median_m", number(r.median_m)},
+          {"mean_m", number(r.mean_m)}};
+}
+
+}  // namespace
+
 nlohmann::ordered_json to_json(const std::vector<CompareRow>& rows) {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
   for (const CompareRow& r : rows) {
@@ -115,6 +138,8 @@ nlohmann::ordered_json to_json(const std::vector<CompareRow>& rows) {
                                {"fusion_s", r.fusion_s},
                                {"mean_conflict", r.mean_conflict},
                                {"ignorance", r.ignorance},
+                               {"rerender", to_json(r.rerendered)},
+                               {"readings_to_flip", flips(r.flips)},
                                {"map_hash", r.map_hash}};
     if (!r.robot.empty()) row["robot"] = r.robot;
     if (r.score) row["score"] = to_json(*r.score);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "score/flips.hpp"
+#include "score/rerender.hpp"
 #include "score/score.hpp"
 
 namespace evigrid::driver {
@@ -16,6 +18,8 @@ struct CompareRow {
   double fusion_s = 0;
   double mean_conflict = 0;  ///< running sum of k a touched cell
   double ignorance = 0;      ///< mean m(unknown) of the map's box
+  Rerendered rerendered;     ///< the readings against those that the map predicts
+  int flips = 0;             ///< of the rule: readings_to_flip
   std::string map_hash;
   std::optional<Score> score;
 };

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "cycle/bounded_queue.hpp"
+#include "evigrid/bounded_queue.hpp"
 #include "cycle/budget.hpp"
 #include "cycle/fleet_scan.hpp"
 #include "cycle/policy.hpp"

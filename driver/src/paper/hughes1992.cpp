@@ -9,23 +9,17 @@
 
 #include "evigrid/scenes/simulate.hpp"
 #include "paper/agreement.hpp"
-#include "paper/cluttered_room.hpp"
-#include "paper/move_to_station.hpp"
 #include "paper/plot.hpp"
 #include "paper/runs.hpp"
+#include "paper/station_rooms.hpp"
 #include "picture/map_picture.hpp"
-#include "progress.hpp"
 #include "score/truth.hpp"
 
 namespace evigrid::driver {
 namespace {
 
 constexpr double kPaperCells = 256 * 256;
-constexpr double kFewestCells = 1100;
-constexpr int kMoves = 5;
 constexpr const char* kRobot = "hughes24";
-constexpr double kFree_m = 1.3;  // the starts' circle of 0.9 m, the robot and 5 cm
-constexpr raycast::Point kMiddle{5, 5};
 constexpr scenes::Pose kOtherEntry{28, 16, 3};
 // Wide arcs, and from the middle of a cluttered room most walls are out of sight: recall counts them all.
 constexpr Floors kFloors{.precision = 0.3, .recall = 0.05, .mistaken_rate = 0.2};
@@ -46,63 +40,8 @@ PlotSeries ends(const char* name, const std::vector<StationRun>& runs) {
   return s;
 }
 
-/// Runs from all around the expected station, which is where a first run from inside the room ends, as the authors
-/// found it before their experiments.
-struct Experiment {
-  std::vector<scenes::Pose> from;
-  std::vector<StationRun> runs;
-  Spread spread{};
-  std::size_t least_cells = SIZE_MAX;
-};
-
-using After = std::function<void(const Map&, const StationRun&)>;
-Experiment experiment(const PaperWorld& room, raycast::Point first, std::size_t count, const StationOptions& options,
-                      const After& after_of_first = {}) {
-  const std::uint64_t seed = room.scene.trajectory.seed;
-  Experiment e;
-  const StationRun scout = move_to_station(room, {first.x_m, first.y_m, 0}, seed, options);
-  e.from = starts_around(room, scout.end(), count, seed);
-  Progress progress("moving to station");
-  for (std::size_t i = 0; i < count; ++i) {
-    e.runs.push_back(move_to_station(room, e.from[i], seed + 1 + i, options, i == 0 ? after_of_first : After{}));
-    e.least_cells = std::min(e.least_cells, e.runs.back().least_cells);
-    progress.show(i + 1, count);
-  }
-  e.spread = spread(e.runs, enclosing_centre(e.runs));
-  return e;
-}
-
 std::string share_of_paper(std::size_t cells) {
   return fmt::format("{}, {:.1f} %", cells, 100.0 * static_cast<double>(cells) / kPaperCells);
-}
-
-/// Rooms drawn at random, and the one whose fewest cells come nearest to the published number: the paper's room for
-/// all that we know of it.
-struct Rooms {
-  std::vector<Experiment> all;
-  std::size_t nearest = 0, sound = 0;  ///< sound: every run within kStation_m and settled within five moves
-};
-
-PaperWorld drawn_room(const PaperOptions& o, std::uint64_t number) {
-  scenes::Scene scene = paper_scene({.seed = o.seed}, "hughes1992", kRobot);
-  scene.world = cluttered_room(number, kFree_m);
-  scene.trajectory.waypoints = {kMiddle, {kMiddle.x_m + 0.1, kMiddle.y_m}};
-  return PaperWorld(std::move(scene));
-}
-
-bool as_published(const Experiment& e) {
-  return e.spread.within == e.runs.size() && e.spread.settled == e.runs.size() && e.spread.most_moves <= kMoves;
-}
-
-Rooms drawn_rooms(const PaperOptions& o, std::size_t rooms, std::size_t runs) {
-  Rooms out;
-  const auto off = [](const Experiment& e) { return std::abs(static_cast<double>(e.least_cells) - kFewestCells); };
-  for (std::size_t k = 0; k < rooms; ++k) {
-    out.all.push_back(experiment(drawn_room(o, k + 1), kMiddle, runs, {.threads = o.threads}));
-    out.sound += as_published(out.all[k]);
-    if (off(out.all[k]) < off(out.all[out.nearest])) out.nearest = k;
-  }
-  return out;
 }
 
 std::vector<std::string> room_row(const std::string& name, const Experiment& e) {
@@ -139,7 +78,7 @@ void gymnasium(const PaperOptions& o, PaperResult& out, std::vector<PaperFile>& 
                           "drifts",
                           fmt::format("{} from the door, {} from the centre {}", metres(way), metres(off), ended),
                           Aim::target,
-                          drift.moves() > kMoves && off > kStation_m,
+                          drift.moves() > kPublishedMoves && off > kStation_m,
                           "the same behaviour from the door",
                           {way, off, drift.moves()}});
   out.findings.push_back({"gymnasium: entering from another side", "another place, not repeatable",
@@ -197,7 +136,7 @@ PaperResult run_hughes1992(const PaperOptions& o) {
       {"farthest end from the common station", "0.457 m (1.5 ft)", metres(ours.largest_m), target,
        ours.largest_m <= kStation_m, "the same runs", ours.largest_m},
       {"most moves of a run", "5", std::to_string(ours.most_moves), target,
-       ours.most_moves <= kMoves && ours.settled == count,
+       ours.most_moves <= kPublishedMoves && ours.settled == count,
        fmt::format("moves of at most 0.5 m; {} of {} runs settled within 0.13 m of the centroid", ours.settled, count),
        ours.most_moves},
       {"fewest cells that pass both tests", "about 1100, 1.6 % of 256 x 256", share_of_paper(main.least_cells),
@@ -224,7 +163,7 @@ PaperResult run_hughes1992(const PaperOptions& o) {
   }
   Page& page = out.page;
   page.paragraph(
-      "A robot with a ring of 24 sonars is put somewhere in a cluttered room of which it knows nothing. It senses, "
+      "A robot with a ring of 24 sonars is put somewhere in a room of which it knows nothing. It senses, "
       "fuses the readings "
       "into a grid by Dempster's rule, and moves towards the centroid of the cells that are surely empty and little "
       "disputed, until it "
@@ -268,9 +207,10 @@ PaperResult run_hughes1992(const PaperOptions& o) {
   page.heading("What the text leaves open");
   page.list(
       {"The width of the occupied arc: 0.15 m on either side of the reading.",
-       "What stands in the room, 10 x 10 m; sonars throw sound away beyond critical incidences of "
-       "65 to 75 degrees; noise "
-       "of 1 cm + 0.5 % of the range.",
+       paper_room
+           ? "What stands in the room of 10 x 10 m, and that it throws sound away beyond critical incidences of 65 "
+             "to 75 degrees; noise of 1 cm + 0.5 % of the range."
+           : "Where it starts: within 0.9 m of where a first run from the widest place ends.",
        "A sonar that hears nothing: its cone counts as empty up to the full range of 7.62 m, as a transducer that "
        "returns its largest range would have it; without that nothing would draw the robot into the gymnasium.",
        "Averaging: three readings a sonar; no echo counts as the full range of 7.62 m.",

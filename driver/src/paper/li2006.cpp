@@ -7,92 +7,24 @@
 #include <array>
 #include <cmath>
 
-#include "error.hpp"
-#include "evigrid/combine.hpp"
-#include "mapping.hpp"
 #include "paper/agreement.hpp"
 #include "paper/five_readings.hpp"
-#include "paper/paper_world.hpp"
+#include "paper/li2006_methods.hpp"
 #include "paper/plot.hpp"
 #include "paper/runs.hpp"
 #include "paper/turning_surface.hpp"
-#include "picture/look.hpp"
 #include "picture/map_picture.hpp"
-#include "picture/sheet.hpp"
-#include "score/truth.hpp"
-#include "simulated.hpp"
 
 namespace evigrid::driver {
 namespace {
 
-struct Method {
-  const char* name;
-  Rule rule;
-  Model model;
-  Look shown;                                   ///< what the chapter draws
-  const char *shown_as, *precision, *mistaken;  ///< Table 14.1
-  double time_ms;                               ///< Table 14.1
-};
-constexpr std::array<Method, 4> kMethods{
-    {{"probability", Rule::bayes, Model::probability, Look::betp, "P(occupied)", "very low", "high", 18146},
-     {"fuzzy", Rule::fuzzy, Model::fuzzy, Look::fuzzy_map, "M", "very high", "low", 35823},
-     {"DST", Rule::dempster, Model::li2006, Look::bel, "bel(occupied)", "high", "medium", 19673},
-     {"DSmT + PCR5", Rule::pcr5, Model::li2006, Look::bel, "bel(occupied)", "very high", "very low", 19016}}};
-enum : std::size_t { kProbability, kFuzzy, kDst, kDsmt };
+using namespace li2006;
 
 constexpr std::array<Floors, 4> kFloors{{{.precision = 0.8, .recall = 0.9, .mistaken_rate = 0.1},
                                          {.precision = 0.8, .recall = 0.9, .mistaken_rate = 0.1},
                                          {.precision = 0.4, .recall = 0.9, .mistaken_rate = 0.4},
                                          {.precision = 0.4, .recall = 0.9, .mistaken_rate = 0.4}}};
 constexpr std::array kRhoV{1.0, 3.0, 10.0, 30.0, 100.0};
-
-struct Mapped {
-  Layers layers;
-  Score score;
-  double fusion_s = INFINITY;
-};
-
-struct Drive {
-  Log log;
-  double cell_m = 0;
-  scenes::TruthGrid truth;
-  CellRect rect{};
-};
-
-Log as(const Log& log, Model model, double rho_v) {
-  Log out = log;
-  for (LogSensor& s : out.sensors) {
-    s.sensor.model = model;
-    s.sensor.reliability = 1;  // "all the sonar sensors have the same reliability": none is discounted
-    s.sensor.li2006.rho_v = rho_v;
-  }
-  return out;
-}
-
-Mapped mapped(const Drive& drive, Rule rule, Model model, double rho_v, int threads) {
-  MappingOptions options;
-  options.cell_m = drive.cell_m;
-  Plan plan{{.cell_m = drive.cell_m, .rule = rule}, parse_executor("tbb", threads)};
-  const Fused f = fuse(as(drive.log, model, rho_v), options, std::move(plan));
-  Mapped out{render_layers(f.map, drive.rect, "map", options.max_image_mb), {}, f.fusion_s};
-  out.score = score(out.layers, drive.truth);
-  return out;
-}
-
-/// Agreement when a cell counts as occupied where what the chapter draws is above ½; cells never seen are unknown.
-Agreement as_drawn(const Mapped& map, Look look, const scenes::TruthGrid& truth) {
-  Overlay over = overlay(map.layers, truth);
-  const CellRect& r = map.layers.rect;
-  for (std::size_t i = 0; i < map.layers.cells(); ++i) {
-    const auto x = r.x + static_cast<std::int64_t>(i) % r.width - over.rect.x;
-    const auto y = r.y + static_cast<std::int64_t>(i) / r.width - over.rect.y;
-    over.map[static_cast<std::size_t>(y * over.rect.width + x)] = never_seen(map.layers, i) ? Decision::unknown
-                                                                  : value_of(look, map.layers, i) > 0.5
-                                                                      ? Decision::occupied
-                                                                      : Decision::empty;
-  }
-  return score(map.layers, truth, over).strict;
-}
 
 bool precision_as_published(const std::array<double, 4>& p) {
   return p[kProbability] < p[kDst] && p[kDst] < std::min(p[kFuzzy], p[kDsmt]);
@@ -108,69 +40,10 @@ std::string listed(const std::array<double, 4>& v, const char* format) {
   return out;
 }
 
-/// What the chapter's figures 14.13 to 14.16 show, beside the true room: grey, black = 1.
-Canvas draw_methods(const std::array<Mapped, 4>& maps, const Drive& drive) {
-  const SheetScale scale = sheet_scale(drive.rect, 360);
-  std::vector<Panel> panels{{"truth", {"dark: surfaces  pale: free"}, thumbnail(drive.truth, scale)}};
-  for (std::size_t i = 0; i < maps.size(); ++i) {
-    const Layers& l = maps[i].layers;
-    panels.push_back({kMethods[i].name,
-                      {fmt::format("grey: {}", kMethods[i].shown_as),
-                       fmt::format("precision {:.3f}  mistaken {:.3f}", maps[i].score.strict.precision,
-                                   maps[i].score.strict.mistaken_rate)},
-                      thumbnail_of(scale, [&](std::int64_t x, std::int64_t y) -> std::pair<float, Rgb> {
-                        x -= l.rect.x, y -= l.rect.y;
-                        if (x < 0 || y < 0 || x >= l.rect.width || y >= l.rect.height) return {-1, kPaper};
-                        const double v = value_of(kMethods[i].shown, l, static_cast<std::size_t>(y * l.rect.width + x));
-                        return {static_cast<float>(v), colour_of(Ramp::greys, v)};
-                      })});
-  }
-  return draw_sheet("one drive, four methods", panels, 3);
-}
-
-/// How many opposite readings turn a cell after 20 agreeing ones, each of mass 0.6 (P = 0.2 and 0.8, which matches by
-/// BetP): what a rule makes of a change in the world.
-Finding flips() {
-  constexpr int kAgreeing = 20, kMost = 1000;
-  std::array<int, 4> count{};
-  std::string ours;
-  for (std::size_t i = 0; i < count.size(); ++i) {
-    const bool p = kMethods[i].rule == Rule::bayes;
-    const std::array<double, 3> empty = p ? std::array{0.8, 0.2, 0.0} : std::array{0.6, 0.0, 0.4},
-                                occupied{empty[1], empty[0], empty[2]};
-    std::array<double, 3> cell = p ? std::array{0.5, 0.5, 0.0} : std::array{0.0, 0.0, 1.0};
-    const auto add = [&](const std::array<double, 3>& reading) {
-      combine(kMethods[i].rule, Planes<const double>{&cell[0], &cell[1], &cell[2]},
-              Planes<const double>{&reading[0], &reading[1], &reading[2]}, Planes<double>{&cell[0], &cell[1], &cell[2]},
-              nullptr, 1);
-    };
-    for (int n = 0; n < kAgreeing; ++n) add(empty);
-    while (cell[1] <= cell[0] && count[i] < kMost) add(occupied), ++count[i];
-    ours += fmt::format("{}{} {}", i == 0 ? "" : ", ", kMethods[i].name,
-                        count[i] == kMost ? "never" : std::to_string(count[i]));
-  }
-  return {"readings to flip a cell after 20 agreeing ones",
-          "",
-          ours,
-          Aim::fact,
-          false,
-          "readings of m = 0.6 (P = 0.2, 0.8), until m(occupied) is above m(empty); in double, without a map's limits",
-          count};
-}
-
-Drive make_drive(const PaperOptions& o) {
-  const scenes::Scene scene = paper_scene(o, "li2006", "pioneer16");
-  SceneTruth truth = scene_truth(scene, scene.map.cell_m);
-  if (!truth.grid) throw InputError("the true room: " + truth.why_not);
-  Drive d{simulate(scene, {.threads = o.threads}).log, scene.map.cell_m, std::move(*truth.grid)};
-  d.rect = {d.truth.x, d.truth.y, d.truth.width, d.truth.height};
-  return d;
-}
-
 }  // namespace
 
 PaperResult run_li2006(const PaperOptions& o) {
-  const Drive drive = make_drive(o);
+  const Drive drive = make_drive(o, false);
   const bool paper_room = o.world.empty();
   std::array<Mapped, 4> maps;
   const int rounds = o.quick ? 1 : 10;
@@ -238,6 +111,17 @@ PaperResult run_li2006(const PaperOptions& o) {
        fmt::format("Bayes by BetP {:.3f}, DST {:.3f}, DSmT {:.3f}", same_model[0], same_model[1], same_model[2]),
        Aim::fact, false, "model li2006 at rho_v = 1 for all; Bayes' likelihoods match the masses by BetP", same_model});
 
+  const Drive mirrors = make_drive(o, true);
+  std::array<double, 4> mirror_precision{}, mirror_mistaken{};
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const Agreement a = mapped(mirrors, kMethods[i].rule, kMethods[i].model, 1, o.threads).score.strict;
+    mirror_precision[i] = a.precision, mirror_mistaken[i] = a.mistaken_rate;
+  }
+  const char* mirror_how = "surfaces throw sound away beyond 25 degrees, second bounces are heard";
+  out.findings.push_back({"precision among false readings", "the same order", listed(mirror_precision, "{:.3f}"),
+                          Aim::reported, false, mirror_how, mirror_precision});
+  out.findings.push_back({"mistaken rate among false readings", "the same order", listed(mirror_mistaken, "{:.3f}"),
+                          Aim::reported, false, mirror_how, mirror_mistaken});
   out.findings.push_back(flips());
   if (paper_room) {  // the slow second opinion
     const FiveReadings five = fuse_by_fives(as(drive.log, Model::li2006, 1), Rule::pcr5, drive.cell_m, drive.rect);
@@ -263,17 +147,15 @@ PaperResult run_li2006(const PaperOptions& o) {
       for (Finding& f : agreement(kMethods[i].name, maps[i].score, kFloors[i])) out.findings.push_back(std::move(f));
   }
   out.files.push_back({"methods.png", png(draw_methods(maps, drive))});
-  out.files.push_back(
-      {"surface.png", png(draw_surface(maps[kDsmt].layers, {"DSmT + PCR5", "one drive around a box"}))});
+  out.files.push_back({"surface.png", png(draw_surface(maps[kDsmt].layers, {"DSmT + PCR5", "one drive, 16 sonars"}))});
 
   Page& page = out.page;
-  page.paragraph(
-      fmt::format("A robot with 16 sonars drives once around a box in a room of 5 x 5 m and senses every 100 ms: {} "
-                  "scans. The same "
-                  "log is fused by probability theory (eq. 14.13, Bayes), by fuzzy sets (eq. 14.15 to 14.17), by "
-                  "Dempster's rule and "
-                  "by DSmT with PCR5, the latter two from the same masses (eq. 14.6 to 14.10).",
-                  drive.log.scans.size()));
+  page.paragraph(fmt::format(
+      "A robot with 16 sonars drives {}: {} scans. The same log is fused by probability theory (eq. 14.13, Bayes), by "
+      "fuzzy sets (eq. 14.15 to 14.17), by Dempster's rule and by DSmT with PCR5, the latter two from the same masses "
+      "(eq. 14.6 to 14.10).",
+      paper_room ? "once around a box in a room of 5 x 5 m and senses every 100 ms" : "through the plan " + o.world,
+      drive.log.scans.size()));
   page.findings(out.findings);
   page.heading("The maps");
   page.picture(out.files[0].bytes, "What the chapter's figures 14.13 to 14.16 show of each method.");
@@ -287,8 +169,10 @@ PaperResult run_li2006(const PaperOptions& o) {
       "before a wall it still outweighs m(empty), so walls come out thick under every rule, while the arcs of the "
       "other "
       "two models are 0.1 m. That, and not the rule, makes the two methods of masses the least precise here. With one "
-      "model for all, the rules lie close together, and PCR5, which never lets one opinion win for good, is a little "
-      "below Dempster's rule in a room without false readings. Sharper models move all of them alike.");
+      "model for all, the rules lie close together, PCR5 a little below Dempster's rule, also among false readings; "
+      "sharper models move all of them alike. What PCR5 does better is to follow a change: three opposite readings "
+      "turn "
+      "a cell that Dempster's rule keeps for twenty.");
   page.raw(svg_plot({"precision against rho_v, one model for all rules", "log10 of rho_v", "precision"},
                     {by_rule.begin(), by_rule.end()}));
   page.table({"rho_v, 1/m2", "Gaussian, m", "Bayes: precision", "mistaken", "DST: precision", "mistaken",
@@ -303,7 +187,7 @@ PaperResult run_li2006(const PaperOptions& o) {
   page.table(metrics.head, metrics.rows);
   page.heading("What the text leaves open");
   page.list(
-      {"The box's place and size, the robot's way around it, the noise (5 mm + 1 % of the range): ours.",
+      {"The box's place and size, the robot's way, the noise (5 mm + 1 % of the range): ours.",
        "Precision and mistaken rate are words in Table 14.1; here they are counted against the true room.",
        "eps = 0.10 m, rho_v of eq. (14.12) = 1.2 m, kE = 0.1, kO = 0.5: ours, within what the literature uses.",
        "In the printed equations all four masses carry lambda, so that normalising would cancel it: they are "

@@ -136,6 +136,33 @@ class Map {
   [[nodiscard]] MapView view();
 
   void clear();
+  /// The cells of rect are as never seen, protected or not; tiles without any other cell are given back.
+  void clear(CellRect rect);
+
+  /// Rolling window: the map keeps the tiles of 64 × 64 cells that meet it, drops the others, and readings write
+  /// nothing outside until it moves on. A shift costs the window's rows of tiles and what it drops, not the map. An
+  /// empty rectangle: no window.
+  void set_window(CellRect window);
+
+  /// No reading changes these cells any more, no undo and no decay: they keep what they hold now, a map that was
+  /// loaded, a room that is known. Whoever calls clear(), write() or merge() means it, and does. Reports still count
+  /// the updates that were kept off in tiles that are protected in part. Costs readings nothing elsewhere.
+  void protect(CellRect area);
+  void unprotect();  ///< all areas
+  [[nodiscard]] std::span<const CellRect> protected_areas() const noexcept;
+
+  /// Says what is known without a sensor: the cells of rect get these masses, row by row from the smallest y, row r at
+  /// masses[r·stride], and no history of conflict. A vacuous mass forgets the cell. In maps that
+  /// forget, what is written fades only after a reading came to it. Under rules that keep no masses the
+  /// cell is as after one source with that mass. Throws std::invalid_argument naming the cell whose mass the rule
+  /// cannot hold, or when masses is too short; std::length_error at the memory cap, before any cell is changed.
+  void write(CellRect rect, std::span<const Mass> masses, std::ptrdiff_t stride);
+  /// A prior map as nav_msgs/OccupancyGrid has it: −1 leaves the cell alone, 0 … 100 is P(occupied) in percent, taken
+  /// as m(occupied) = P·certainty, m(empty) = (1 − P)·certainty. Throws std::invalid_argument for other values.
+  void write(CellRect rect, std::span<const std::int8_t> occupancy, std::ptrdiff_t stride, double certainty);
+  /// One mass in all cells whose centres lie in a convex polygon of frame M, its corners in either sense, e.g. a
+  /// robot's footprint. Throws as above, and for fewer than three corners or one that is not finite.
+  void write(std::span<const Point2> polygon, const Mass&);
   [[nodiscard]] const MapParams& params() const noexcept;
   [[nodiscard]] std::span<const Sensor> sensors() const noexcept;
   [[nodiscard]] std::string_view kernel_name() const noexcept;  ///< what really runs: "scalar", "avx2", "avx512", "cuda"

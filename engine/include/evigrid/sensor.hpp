@@ -66,6 +66,16 @@ struct Beam {
   double occupied_half_width_m = 0.10;  ///< occupied where |d − R| ≤ this
 };
 
+/// What several readings of one scan, of sensors with the same policy, are to one another where their cones overlap.
+enum class Dependence : std::uint8_t {
+  independent,    ///< distinct evidence: each meets the cell by the map's rule
+  cautious,       ///< the same evidence, seen several times: the cautious rule (Denœux 2008) makes them one source
+  once_per_scan,  ///< the first one, in the order of the scan, speaks for all
+  weighted        ///< partly distinct: weights of evidence are multiplied by Sensor::weight_exponent, then added
+};
+std::string_view name(Dependence) noexcept;
+std::optional<Dependence> dependence_from_name(std::string_view) noexcept;
+
 struct Sensor {
   Model model = Model::li2014;
   Pose2 T_robot_sensor{};           ///< mount; a cone looks along its x axis
@@ -81,6 +91,10 @@ struct Sensor {
   /// What this sensor says is forgotten with this τ, s, in maps that forget (MapParams::decay_s, which 0 means): a cell
   /// ages at the rate of the sensor that told it something last.
   double decay_s = 0;
+  /// In maps whose cells hold masses only. All but independent make the scan's readings one source a cell, which meets
+  /// the cell after the scan's independent readings; mass on empty ∩ occupied is given up before.
+  Dependence dependence = Dependence::independent;
+  double weight_exponent = 1;  ///< γ in (0, 1] of weighted: 1 is Dempster's rule within the scan, 1/n the mean of n
   int beams = 1;              ///< number of ranges in one reading; > 1 only for a fan
   double first_beam_rad = 0;  ///< bearing of beam 0 in S, counter-clockwise
   double beam_step_rad = 0;   ///< bearing from one beam to the next

@@ -17,6 +17,11 @@ struct Pose2 {
 /// a ∘ b: `b` expressed in the frame that `a` maps into, e.g. T_map_sensor = compose(T_map_robot, T_robot_sensor).
 Pose2 compose(const Pose2& a, const Pose2& b) noexcept;
 
+/// A point of frame M, m.
+struct Point2 {
+  double x_m = 0, y_m = 0;
+};
+
 struct CellIndex {
   std::int64_t x = 0, y = 0;
   friend bool operator==(const CellIndex&, const CellIndex&) = default;

@@ -27,7 +27,8 @@ void DeviceMap::list_runs(const Scratch& s) {
 void DeviceMap::list_parts(const Plan& plan) {
   entries_.clear(), parts_.clear(), reaches_.clear();
   for (std::size_t region = 0; region < plan.regions(); ++region) {  // a tile's readings lie in one region, in order
-    for (const Reach& r : plan.region(region)) entries_.push_back({run_of_[r.footprint], r.tile, place_of_[r.footprint]});
+    for (const Reach& r : plan.region(region))
+      entries_.push_back({run_of_[r.footprint], r.tile, place_of_[r.footprint]});
   }
   if (runs_.size() == 1) {  // by tile, counted
     std::vector<std::uint32_t>& next = reaches_;
@@ -39,9 +40,8 @@ void DeviceMap::list_parts(const Plan& plan) {
     entries_.swap(sorted_);
     reaches_.clear();
   } else {
-    std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-      return a.run != b.run ? a.run < b.run : a.tile < b.tile;
-    });
+    std::stable_sort(entries_.begin(), entries_.end(),
+                     [](const Entry& a, const Entry& b) { return a.run != b.run ? a.run < b.run : a.tile < b.tile; });
   }
   for (std::size_t i = 0; i < entries_.size();) {
     std::size_t end = i;
@@ -97,8 +97,8 @@ void DeviceMap::take_back(const Pipeline& p, Plan& plan, const kernels::DeviceRe
     try {
       device_->arrived(first + n);
     } catch (const kernels::DeviceError& lost) {
-      throw std::runtime_error(std::string("the device was lost while the map's tiles came back, the map is not whole: ") +
-                               lost.what());
+      throw std::runtime_error(
+          std::string("the device was lost while the map's tiles came back, the map is not whole: ") + lost.what());
     }
     Piece piece{updated_.data() + first, plan, result.cells + first * p.store.tile_bytes() / sizeof(float),
                 p.store.tile_bytes()};

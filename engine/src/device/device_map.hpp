@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A map's tiles on a device. They stay there from batch to batch; the host's tiles are brought up to date after each, so
-// that whoever reads the map never waits for a device. A tile that anyone else changed since is sent again.
+// A map's tiles on a device. They stay there from batch to batch; the host's tiles are brought up to date after each,
+// so that whoever reads the map never waits for a device. A tile that anyone else changed since is sent again.
 #pragma once
 #include <memory>
 #include <string>

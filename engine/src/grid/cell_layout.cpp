@@ -74,6 +74,7 @@ CellLayout cell_layout(const MapParams& p, const KernelTable& table) {
   CellLayout out;
   out.planes = planes_of(p);
   int next = row_of(p.rule).count;
+  out.state = next;
   out.planes_are_masses = state_is_masses(p.rule);
   if (out.planes_are_masses && next > 3) out.paradox = 3;
   if (p.keep_conflict) out.conflict = next++;

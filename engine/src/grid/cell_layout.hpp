@@ -21,6 +21,7 @@ inline constexpr int kMostForgettingPlanes = 10;  // the same, three of history,
 
 struct CellLayout {
   std::vector<Plane> planes;
+  int state = 3;  // the first of them are the rule's, the others history
   int paradox = -1, conflict = -1, con = -1, last_conflict = -1;  // which plane; −1 is none
   int age = -1;                   // of maps that forget: the first of three planes (decay.hpp)
   bool planes_are_masses = true;  // the first three are e, o, u as they are read

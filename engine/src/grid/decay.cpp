@@ -96,6 +96,9 @@ int mass_planes(const CellLayout& l) noexcept { return l.paradox >= 0 ? 4 : 3; }
 
 }  // namespace
 
+CellAge age_of(const CellLayout& l, const float* cell) noexcept { return read_age(cell + l.age * kCells); }
+void set_age(const CellLayout& l, float* cell, const CellAge& age) noexcept { write_age(cell + l.age * kCells, age); }
+
 void age_masses(const CellLayout& l, int planes, std::int64_t now_ns, float* cells, int micros) noexcept {
   Shares share_of;
   for (int m = 0; m < micros; ++m) age_micro(l, now_ns, cells + m * planes * kCells, share_of);

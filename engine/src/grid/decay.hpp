@@ -21,6 +21,10 @@ struct CellAge {
 /// that runs backwards changes nothing.
 void age_masses(const CellLayout&, int planes, std::int64_t now_ns, float* cells, int micros) noexcept;
 
+/// Of one cell, given where its first plane is, in a layout that keeps ages.
+CellAge age_of(const CellLayout&, const float* cell) noexcept;
+void set_age(const CellLayout&, float* cell, const CellAge&) noexcept;
+
 /// Of one worker, for one reading at a time: hold() the micro-tiles that it may touch, age() them, let the kernel fuse
 /// it, settle().
 class DecayedUpdate {

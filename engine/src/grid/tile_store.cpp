@@ -82,6 +82,18 @@ void TileStore::set_vacuous(Tile& tile) noexcept {
   }
 }
 
+bool TileStore::is_vacuous(const Tile& tile) const noexcept {
+  const float* p = tile.cells;
+  for (int micro = 0; micro < kernels::kMicrosPerTile; ++micro) {
+    for (const Plane& plane : layout().planes) {
+      for (int i = 0; i < kernels::kMicroCells; ++i) {
+        if (*p++ != plane.vacuous) return false;
+      }
+    }
+  }
+  return true;
+}
+
 void TileStore::erase(TileIndex at) noexcept {
   const auto it = tiles_.find(at);
   if (it == tiles_.end()) return;

@@ -52,6 +52,7 @@ class TileStore final : public TileSource {
   void reserve(std::size_t more) const;
   Tile& get_or_make(TileIndex);
   void set_vacuous(Tile&) noexcept;
+  [[nodiscard]] bool is_vacuous(const Tile&) const noexcept;
   void erase(TileIndex) noexcept;
   void clear() noexcept;
 

@@ -43,6 +43,8 @@ void each_field(S& s, F&& f) {
   f("reliability_if_empty", s.reliability_if_empty);
   f("reliability_if_occupied", s.reliability_if_occupied);
   f("decay_s", s.decay_s);
+  f("dependence", s.dependence);
+  f("weight_exponent", s.weight_exponent);
   f("beams", s.beams);
   f("first_beam_rad", s.first_beam_rad);
   f("beam_step_rad", s.beam_step_rad);
@@ -100,6 +102,7 @@ void write(std::string& out, std::string_view key, const T& value) {
 std::optional<Rule> from_name(Rule, std::string_view s) { return rule_from_name(s); }
 std::optional<Model> from_name(Model, std::string_view s) { return model_from_name(s); }
 std::optional<Likelihood> from_name(Likelihood, std::string_view s) { return likelihood_from_name(s); }
+std::optional<Dependence> from_name(Dependence, std::string_view s) { return dependence_from_name(s); }
 std::optional<Kernel> from_name(Kernel, std::string_view s) { return kernel_from_name(s); }
 
 template <class T>

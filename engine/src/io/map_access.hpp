@@ -5,23 +5,30 @@
 
 #include "evigrid/map.hpp"
 #include "evigrid/view.hpp"
+#include "grid/admission.hpp"
 #include "grid/change_log.hpp"
 #include "grid/tile_store.hpp"
 
 namespace evigrid {
 
 class DeviceMap;
+struct Pipeline;
+struct Scratch;
 
 struct MapAccess {
   static const TileSource& source(const Map&) noexcept;
   static const TileSource& source(const MapView&) noexcept;
   static TileStore& store(Map&) noexcept;
   static ChangeLog& changes(Map&) noexcept;
+  static Admission& admission(Map&) noexcept;
   static std::int64_t& last_stamp_ns(Map&) noexcept;  ///< the smallest number before the first scan
   static std::int64_t last_stamp_ns(const Map&) noexcept;
   static std::int64_t last_stamp_ns(const MapView&) noexcept;
   static void use_device(Map&, std::unique_ptr<DeviceMap>);  ///< for tests, with the emulated one
   static DeviceMap* device(Map&) noexcept;  ///< null where there is none
+  static Scratch& scratch(Map&) noexcept;
+  static const Scratch& scratch(const Map&) noexcept;
+  static Pipeline pipeline(Map&) noexcept;
   static Executor& executor(const Map&) noexcept;
 };
 

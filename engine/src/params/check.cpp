@@ -47,6 +47,13 @@ std::vector<ParamError> check(const Sensor& s) {
       errors.push_back({"sensor.beam_step_rad", "times beams is more than a full circle"});
     }
   }
+  if (s.dependence != Dependence::independent && s.decay_s > 0) {
+    errors.push_back({"sensor.decay_s", "cannot be beside dependence " + std::string(name(s.dependence)) +
+                                            ": what several sensors say together is forgotten at the map's rate"});
+  }
+  if (s.dependence != Dependence::weighted && s.weight_exponent != 1) {
+    errors.push_back({"sensor.weight_exponent", "is of the dependence weighted alone"});
+  }
   if (s.model != Model::beam && s.beams != 1) errors.push_back({"sensor.beams", "must be 1 for a cone"});
   return errors;
 }
@@ -72,6 +79,10 @@ std::vector<ParamError> check(const MapParams& p) {
 
 std::vector<ParamError> check_pair(Rule rule, const Sensor& s) {
   const std::string_view why = why_not_together(rule, s.model);
+  if (why.empty() && s.dependence != Dependence::independent && !state_is_masses(rule)) {
+    return {{"sensor.dependence", std::string(name(s.dependence)) + " cannot be with the rule " +
+                                      std::string(name(rule)) + ": its cells hold no masses"}};
+  }
   if (why.empty()) return {};
   return {{"sensor.model",
            std::string(name(s.model)) + " cannot be fused by " + std::string(name(rule)) + ": " + std::string(why)}};

@@ -46,6 +46,7 @@ inline constexpr ParamRow<Sensor> kSensorRows[] = {
      "Mercier et al. 2008"},
     {"sensor.decay_s", "s (0: the map's)", kLeastDecay_s, kMostDecay_s,
      [](const Sensor& s) { return s.decay_s == 0 ? kMostDecay_s : s.decay_s; }, "ours"},
+    {"sensor.weight_exponent", "", 1e-3, 1, [](const Sensor& s) { return s.weight_exponent; }, "Denœux 2008"},
     {"sensor.T_robot_sensor.x_m", "m", -1e4, 1e4, [](const Sensor& s) { return s.T_robot_sensor.x_m; }, "ours"},
     {"sensor.T_robot_sensor.y_m", "m", -1e4, 1e4, [](const Sensor& s) { return s.T_robot_sensor.y_m; }, "ours"},
     {"sensor.T_robot_sensor.yaw_rad", "rad", -1e3, 1e3, [](const Sensor& s) { return s.T_robot_sensor.yaw_rad; },

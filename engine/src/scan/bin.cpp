@@ -13,23 +13,26 @@ namespace {
 /// Places of tiles in the batch: of those that exist in the tile itself, of the others in a map.
 class Places {
  public:
-  Places(TileStore& store, Plan& plan) : store_(store), plan_(plan) {}
-  /// −1 for a tile that neither exists nor has a place.
-  std::int64_t find(TileIndex at) {
+  Places(TileStore& store, const Admission& admission, Plan& plan)
+      : store_(store), admission_(admission), restricted_(admission.restricts()), plan_(plan) {}
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0}, kRefused = kNone - 1;
+  [[nodiscard]] static bool is_place(std::uint32_t place) noexcept { return place < kRefused; }
+
+  /// kNone for a tile that neither exists nor has a place.
+  std::uint32_t find(TileIndex at) {
     if (Tile* tile = store_.find(at)) {
       if (tile->batch != plan_.batch) {
         tile->batch = plan_.batch;
-        tile->place = add(at, tile);
+        tile->place = restricted_ && admission_.refuses(at) ? kRefused : add(at, tile);
       }
       return tile->place;
     }
-    const auto it = missing_.find(at);
-    return it == missing_.end() ? std::int64_t{-1} : std::int64_t{it->second};
+    if (const auto it = missing_.find(at); it != missing_.end()) return it->second;
+    return restricted_ && admission_.refuses(at) ? kRefused : kNone;
   }
   std::uint32_t find_or_add(TileIndex at) {
-    const std::int64_t place = find(at);
-    if (place >= 0) return static_cast<std::uint32_t>(place);
-    return missing_[at] = add(at, nullptr);
+    const std::uint32_t place = find(at);
+    return place != kNone ? place : missing_[at] = add(at, nullptr);
   }
   void make_missing() {
     store_.reserve(missing_.size());
@@ -45,6 +48,8 @@ class Places {
     return static_cast<std::uint32_t>(plan_.tiles.size() - 1);
   }
   TileStore& store_;
+  const Admission& admission_;
+  bool restricted_;
   Plan& plan_;
   std::map<TileIndex, std::uint32_t> missing_;
 };
@@ -84,19 +89,20 @@ void share_out(Plan& p, int threads, bool fans) {
 
 }  // namespace
 
-void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& table, TileStore& store, int threads,
-         Plan& plan) {
+void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& table, TileStore& store,
+         const Admission& admission, int threads, Plan& plan) {
   ++plan.batch;
   plan.tiles.clear();
   plan.unsorted.clear();
   plan.cones.clear();
   plan.cone.resize(footprints.size());
-  Places places(store, plan);
+  Places places(store, admission, plan);
   kernels::FanMicros fan_micros;
   bool fans = false;
   for (std::uint32_t i = 0; i < footprints.size(); ++i) {
     const Footprint& f = footprints[i];
     const auto reach = [&](std::uint32_t place) {
+      if (!Places::is_place(place)) return;
       ++plan.tiles[place].readings;
       plan.unsorted.push_back({i, place});
     };
@@ -111,9 +117,8 @@ void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& t
     for (std::int64_t y = first.y; y <= last.y; ++y) {
       for (std::int64_t x = first.x; x <= last.x; ++x) {
         const TileIndex at{y, x};
-        const std::int64_t place = places.find(at);
-        if (place >= 0) {
-          reach(static_cast<std::uint32_t>(place));
+        if (const std::uint32_t place = places.find(at); place != Places::kNone) {
+          reach(place);
           continue;
         }
         // A new tile costs memory: look closer before making one.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "grid/admission.hpp"
 #include "grid/tile_store.hpp"
 #include "scan/compiled.hpp"
 #include "scan/cone_list.hpp"
@@ -44,6 +45,7 @@ struct Plan {
 };
 
 /// Creates missing tiles (std::length_error at the memory cap, before any cell is changed).
-void bin(const std::vector<Footprint>&, const kernels::KernelTable&, TileStore&, int threads, Plan&);
+/// Tiles that admission refuses are not reached.
+void bin(const std::vector<Footprint>&, const kernels::KernelTable&, TileStore&, const Admission&, int threads, Plan&);
 
 }  // namespace evigrid

@@ -25,8 +25,9 @@ struct Footprint {
   const CompiledSensor* sensor = nullptr;
   kernels::SensorPose pose{};
   std::int64_t stamp_ns = 0;  // of its scan
-  double range_m = 0;   // of a cone
-  int cone_model = -1;  // index into the kernel table; −1 is a fan
+  std::size_t scan = 0;       // which one of the batch
+  double range_m = 0;         // of a cone
+  int cone_model = -1;        // index into the kernel table; −1 is a fan
   kernels::ConeReading cone;
   std::unique_ptr<kernels::Fan> fan;  // its ranges in metres until it is compiled
 };

@@ -44,6 +44,8 @@ struct SonarSpec {
   double min_range_m = 0, max_range_m = 0;
   double reliability = 1;     ///< in (0, 1]
   double decay_s = 0;         ///< τ of what it says, s, in maps that forget; 0: the map's
+  std::string dependence;     ///< name of what readings of one scan are to one another; empty: independent
+  double weight_exponent = 1;
   raycast::RangeNoise noise;  ///< of the simulated readings
   int group = 0;              ///< sonars of one group ping at the same moment: cross-talk happens within it
 };
@@ -58,6 +60,8 @@ struct LaserSpec {
   double min_range_m = 0, max_range_m = 0;
   double reliability = 1;
   double decay_s = 0;
+  std::string dependence;
+  double weight_exponent = 1;
   raycast::RangeNoise noise;
 };
 
@@ -136,7 +140,7 @@ struct Vocabulary {
     double least = 0, most = 0;
     bool is_switch = false;  ///< true or false
   };
-  std::vector<std::string> rules, sonar_models, laser_models;
+  std::vector<std::string> rules, sonar_models, laser_models, dependences;
   std::vector<Parameter> parameters;  ///< of models: a table [robot.sensor.MODEL] may name them
 };
 

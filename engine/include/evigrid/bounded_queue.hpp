@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace evigrid::driver {
+namespace evigrid {
 
 template <class T>
 class BoundedQueue {
@@ -107,4 +107,4 @@ class BoundedQueue {
   bool closed_ = false;
 };
 
-}  // namespace evigrid::driver
+}  // namespace evigrid

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "revision/network.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "error.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+constexpr const char* kFormat = "evigrid revision 1";
+constexpr double kMostWeight = 1e6;
+
+double sigmoid(double t) { return 1 / (1 + std::exp(-t)); }
+
+}  // namespace
+
+Gbba gbba(const ModelMass& m) { return {m.e, m.o, m.u, m.c}; }
+
+std::array<double, Network::kHidden> Network::hidden(const Gbba& in) const {
+  std::array<double, kHidden> out{};
+  for (std::size_t h = 0; h < kHidden; ++h) {
+    const double* const w = weight.data() + h * (kIn + 1);
+    double sum = w[kIn];
+    for (std::size_t i = 0; i < kIn; ++i) sum += w[i] * in[i];
+    out[h] = sigmoid(sum);
+  }
+  return out;
+}
+
+Gbba Network::raw(const std::array<double, kHidden>& hidden) const {
+  Gbba out{};
+  for (std::size_t o = 0; o < kOut; ++o) {
+    const double* const w = weight.data() + kHidden * (kIn + 1) + o * (kHidden + 1);
+    double sum = w[kHidden];
+    for (std::size_t h = 0; h < kHidden; ++h) sum += w[h] * hidden[h];
+    out[o] = sigmoid(sum);
+  }
+  return out;
+}
+
+Gbba revise(const Network& network, const Gbba& modelled) {
+  Gbba out = network.raw(network.hidden(modelled));
+  const double sum = out[0] + out[1] + out[2] + out[3];
+  if (!(sum > 0)) return {0, 0, 1, 0};  // every output underflowed: it says nothing
+  for (double& m : out) m /= sum;
+  return out;
+}
+
+std::string to_text(const std::vector<Revision>& revisions) {
+  nlohmann::ordered_json out{{"format", kFormat}, {"sensors", nlohmann::ordered_json::array()}};
+  for (const Revision& r : revisions)
+    out["sensors"].push_back({{"sensor", r.sensor}, {"model", r.model}, {"weights", r.network.weight}});
+  return out.dump(1) + "\n";
+}
+
+std::vector<Revision> read_revisions(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": cannot be read");
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  const auto fail = [&](const std::string& why) { throw InputError(path + ": " + why); };
+  if (!json.is_object() || json.value("format", nlohmann::json()) != kFormat)
+    fail("is no file of `evigrid train` (format: " + std::string(kFormat) + ")");
+  const auto sensors = json.find("sensors");
+  if (sensors == json.end() || !sensors->is_array() || sensors->empty()) fail("sensors: none");
+  std::vector<Revision> out;
+  for (const auto& one : *sensors) {
+    const std::string where = fmt::format("sensors[{}].", out.size());
+    if (!one.is_object()) fail(where + ": is no object");
+    const auto field = [&](const char* key) {
+      const auto found = one.find(key);
+      if (found == one.end()) fail(where + key + ": is missing");
+      return *found;
+    };
+    Revision r;
+    const auto number = field("sensor"), model = field("model"), weights = field("weights");
+    if (!number.is_number_unsigned()) fail(where + "sensor: is no whole number from 0");
+    if (!model.is_string() || !model_from_name(model.get<std::string>())) fail(where + "model: is unknown");
+    if (!weights.is_array() || weights.size() != r.network.weight.size())
+      fail(fmt::format("{}weights: must be {} numbers", where, Network::kWeights));
+    r.sensor = number.get<std::size_t>();
+    r.model = model.get<std::string>();
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (!weights[i].is_number() || !(std::abs(weights[i].get<double>()) <= kMostWeight))
+        fail(fmt::format("{}weights[{}]: is no number within ±{:g}", where, i, kMostWeight));
+      r.network.weight[i] = weights[i].get<double>();
+    }
+    out.push_back(std::move(r));
+  }
+  return out;
+}
+
+}  // namespace evigrid::driver

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tiles that are protected in part: their protected cells are put back after each batch, bit for bit.
+#pragma once
+#include <vector>
+
+#include "grid/admission.hpp"
+#include "scan/bin.hpp"
+
+namespace evigrid {
+
+class Shield {
+ public:
+  Shield(const Plan&, const Admission&, const TileSource&);
+  void restore() const noexcept;
+
+ private:
+  struct Kept {
+    float* at;
+    float value;
+  };
+  std::vector<Kept> kept_;
+};
+
+}  // namespace evigrid
