@@ -6,7 +6,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(sys.argv[1])
-SOURCE = {".cpp", ".hpp", ".h", ".cu", ".in"}
+SOURCE = {".cpp", ".hpp", ".h", ".cu", ".cuh", ".in"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
 # Third-party headers, by who may see them.
 THIRD = {
@@ -14,13 +14,14 @@ THIRD = {
     "embree": re.compile(r"^embree[34]/"), "highway": re.compile(r"^hwy/"), "toml": re.compile(r"^toml\+\+/"),
     "cli": re.compile(r"^CLI/"), "json": re.compile(r"^nlohmann/"), "png": re.compile(r"^png\.h$"),
     "zlib": re.compile(r"^zlib\.h$"), "fmt": re.compile(r"^fmt/"), "zstd": re.compile(r"^zstd\.h$"),
+    "cuda": re.compile(r"^cuda_runtime\.h$"),
     "yaml": re.compile(r"^yaml-cpp/"),
     "tinyobj": re.compile(r"^tiny_obj_loader\.h$"),
 }
 # Room: folders it may include from (by include path prefix), third parties it may include.
 ROOMS = {
-    "kernels": (("kernels/",), {"highway"}),
-    "engine": (("evigrid/", "kernels/row/", "scan/", "grid/", "exec/", "params/", "io/", "integrate.hpp"), {"tbb", "omp", "zstd"}),
+    "kernels": (("kernels/",), {"highway", "cuda"}),
+    "engine": (("evigrid/", "kernels/row/", "kernels/device/device.hpp", "device/", "scan/", "grid/", "exec/", "params/", "io/", "integrate.hpp"), {"tbb", "omp", "zstd"}),
     "engine/include": (("evigrid/",), set()),
     "raycast": (("evigrid/raycast/", "@raycast"), {"embree", "tbb", "eigen", "highway"}),
     "raycast/include": (("evigrid/raycast/",), set()),

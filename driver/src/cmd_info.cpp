@@ -24,7 +24,7 @@ std::string text_of(const Json& value);
 
 Json facts() {
   Json kernels = Json::array();
-  for (const Kernel kernel : {Kernel::scalar, Kernel::avx2, Kernel::avx512}) {
+  for (const Kernel kernel : {Kernel::scalar, Kernel::avx2, Kernel::avx512, Kernel::cuda}) {
     if (kernel_available(kernel)) kernels.push_back(name(kernel));
   }
   Json rules = Json::array(), models = Json::array();
@@ -36,6 +36,7 @@ Json facts() {
   out["build_type"] = EVIGRID_BUILD_TYPE;
   out["compiler"] = EVIGRID_COMPILER;
   out["kernels_available"] = kernels;
+  if (const std::string why = why_no_cuda(); !why.empty()) out["cuda"] = why;
   out["kernel_chosen"] = resolve_kernel_name(Kernel::automatic);
   out["executors"] = {"serial", "tbb", "openmp", "spin"};
   out["threads"] = make_tbb_executor(0)->concurrency();

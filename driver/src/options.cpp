@@ -20,7 +20,7 @@ std::string joined(std::span<const T> all) {
   return out;
 }
 
-constexpr Kernel kKernels[] = {Kernel::scalar, Kernel::avx2, Kernel::avx512};
+constexpr Kernel kKernels[] = {Kernel::scalar, Kernel::avx2, Kernel::avx512, Kernel::cuda};
 constexpr int kMostThreads = 4096;
 
 }  // namespace
@@ -63,6 +63,7 @@ Kernel parse_kernel(const std::string& text) {
     if (text == name(kernel)) return kernel;
     here += ", " + std::string(name(kernel));
   }
+  if (text == name(Kernel::cuda)) throw InputError("--kernel: cuda cannot run here: " + why_no_cuda());
   throw InputError(fmt::format("--kernel: '{}' is unknown or cannot run here; here: auto{}", text, here));
 }
 
@@ -147,7 +148,8 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
                   "serial, tbb, openmp or spin; the map is the same. spin: threads\nthat look for work for 20 ms "
                   "before they sleep, for single scans at 50 Hz or more")
       ->capture_default_str();
-  command.add_option("--kernel", o.kernel, "auto, scalar, avx2 or avx512; the map is the same")->capture_default_str();
+  command.add_option("--kernel", o.kernel, "auto, scalar, avx2, avx512 or cuda; the map is the same")
+      ->capture_default_str();
   command.add_option("--json", o.json, "also write report.json to this file; - for standard output");
   command.add_option("--layers", o.layers,
                      "also draw these, comma-separated, or all, as layer_NAME.png: " + look_names());

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "combine_blocks.hpp"
+#include "device/device_combine.hpp"
 #include "kernels/row/kernel_table.hpp"
 #include "rule_kernels.hpp"
 
@@ -40,10 +41,10 @@ std::uint64_t through_double(Rule rule, Planes<const float> a, Planes<const floa
 }  // namespace
 
 const kernels::KernelTable& table_of(Kernel kernel) {
-  const kernels::KernelTable* table = kernels::find_table(name(kernel));
-  if (table == nullptr) {
-    throw std::invalid_argument("kernel: " + std::string(name(kernel)) + " cannot run on this processor");
-  }
+  if (!kernel_available(kernel))
+    throw std::invalid_argument("kernel: " + std::string(name(kernel)) + " cannot run here");
+  // Beside a device the processor does what is not the device's: compiling, binning, reading out.
+  const kernels::KernelTable* table = kernels::find_table(name(kernel == Kernel::cuda ? Kernel::automatic : kernel));
   return *table;
 }
 
@@ -67,6 +68,7 @@ std::uint64_t combine_range(Rule rule, Planes<const double> a, Planes<const doub
 std::uint64_t combine(Rule rule, Planes<const float> a, Planes<const float> b, Planes<float> c, float* conflict,
                       std::size_t n, Kernel kernel, Executor* executor) {
   const kernels::KernelTable& table = table_of(kernel);
+  if (kernel == Kernel::cuda && a.c == nullptr && b.c == nullptr) return combine_by_device(rule, a, b, c, conflict, n);
   return over_blocks(n, executor, [&](std::size_t begin, std::size_t end) {
     return combine_range(table, rule, a, b, c, conflict, begin, end);
   });
@@ -79,8 +81,13 @@ std::uint64_t combine(Rule rule, Planes<const double> a, Planes<const double> b,
   });
 }
 
-std::string_view resolve_kernel_name(Kernel kernel) { return table_of(kernel).name; }
-bool kernel_available(Kernel kernel) noexcept { return kernels::find_table(name(kernel)) != nullptr; }
+std::string_view resolve_kernel_name(Kernel kernel) {
+  return kernel == Kernel::cuda ? name(kernel) : table_of(kernel).name;
+}
+bool kernel_available(Kernel kernel) noexcept {
+  return kernel == Kernel::cuda ? kernels::why_no_cuda().empty() : kernels::find_table(name(kernel)) != nullptr;
+}
+std::string why_no_cuda() { return kernels::why_no_cuda(); }
 
 double fuzzy_map(double empty, double occupied) noexcept {
   const double not_occupied = 1 - occupied, both = empty * occupied, neither = (1 - empty) * not_occupied;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "device/device_map.hpp"
 #include "kernels/row/portable_math.hpp"
 #include "rule_kernels.hpp"
 #include "scan/copy_tiles.hpp"
@@ -223,6 +224,55 @@ void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
       &all_of);
 }
 
+bool any_dependent(const Pipeline& p) {
+  return std::any_of(p.sensors.begin(), p.sensors.end(),
+                     [](const CompiledSensor& c) { return c.sensor.dependence != Dependence::independent; });
+}
+
+/// What a device's kernels do not do; empty: they do the whole batch.
+std::string_view not_by_device(const Pipeline& p) {
+  if (p.params.decay_s > 0) return "a map that forgets is fused on the processor";
+  if (any_dependent(p)) return "readings that are no distinct evidence are fused on the processor";
+  if (!p.admission.guarded.empty()) return "a map with protected areas is fused on the processor";
+  return {};
+}
+
+/// Every region by its task, regions in parallel.
+void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule, int threads) {
+  s.stats.assign(s.plan.regions(), {});
+  if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
+  Batch batch{p, s, rule, any_dependent(p)};
+  p.executor.run(
+      static_cast<std::int64_t>(s.plan.regions()),
+      [](void* context, std::int64_t index, int worker) {
+        const Batch& b = *static_cast<const Batch*>(context);
+        RegionTask task(b, b.s.workers[static_cast<std::size_t>(worker)]);
+        task.run(b.s.plan.region(static_cast<std::size_t>(index)));
+        b.s.stats[static_cast<std::size_t>(index)] = task.stats;
+        b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += task.tiles;
+      },
+      &batch);
+}
+
+/// False where there is no device, and when it fails: the map then goes on without it, and says why.
+bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) {
+  if (p.device == nullptr || !*p.device) return false;
+  if (const std::string_view why = not_by_device(p); !why.empty()) {
+    *p.note = why;
+    return false;
+  }
+  try {
+    s.stats.push_back((*p.device)->fuse(p, s, rule));
+    p.note->clear();
+    return true;
+  } catch (const kernels::DeviceError& failed) {
+    *p.note = std::string(failed.what()) + "; the map goes on on the processor";
+    p.device->reset();
+    for (auto& [at, tile] : p.store.tiles()) tile.on_device = nullptr;
+    return false;
+  }
+}
+
 }  // namespace
 
 Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
@@ -248,22 +298,9 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   bin(s.footprints, p.table, p.store, p.admission, threads, s.plan);
   copy_what_views_see(s.plan, p.store, p.executor);
   const Shield shield(s.plan, p.admission, p.store);
-  s.stats.assign(s.plan.regions(), {});
-  if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
-  const bool dependent = std::any_of(p.sensors.begin(), p.sensors.end(), [](const CompiledSensor& c) {
-    return c.sensor.dependence != Dependence::independent;
-  });
-  Batch batch{p, s, args_of(p.params, p.undo), dependent};
-  p.executor.run(
-      static_cast<std::int64_t>(s.plan.regions()),
-      [](void* context, std::int64_t index, int worker) {
-        const Batch& b = *static_cast<const Batch*>(context);
-        RegionTask task(b, b.s.workers[static_cast<std::size_t>(worker)]);
-        task.run(b.s.plan.region(static_cast<std::size_t>(index)));
-        b.s.stats[static_cast<std::size_t>(index)] = task.stats;
-        b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += task.tiles;
-      },
-      &batch);
+  const kernels::RuleArgs rule = args_of(p.params, p.undo);
+  s.stats.clear();
+  if (!fused_by_device(p, s, rule)) fuse_regions(p, s, rule, threads);
   shield.restore();
   for (const kernels::Stats& region : s.stats) {
     report.cells_updated += region.cells;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The algorithm box: one batch of scans into the grid.
 #pragma once
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "evigrid/map.hpp"
@@ -12,6 +14,8 @@
 
 namespace evigrid {
 
+class DeviceMap;  // device/device_map.hpp
+
 struct Pipeline {
   const MapParams& params;
   const kernels::KernelTable& table;
@@ -21,7 +25,9 @@ struct Pipeline {
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
   const Admission& admission;
-  bool undo = false;  // takes the scans back
+  bool undo = false;                             // takes the scans back
+  std::unique_ptr<DeviceMap>* device = nullptr;  // null, or what fuses instead of the table; dropped when it fails,
+  std::string* note = nullptr;                   // and why
 };
 
 struct Scratch;  // scratch.hpp

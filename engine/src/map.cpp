@@ -4,6 +4,9 @@
 
 #include <stdexcept>
 
+#include "combine_blocks.hpp"
+#include "device/device_map.hpp"
+#include "evigrid/combine.hpp"
 #include "evigrid/view.hpp"
 #include "grid/readout.hpp"
 #include "grid/tile_catalog.hpp"
@@ -29,23 +32,34 @@ struct Map::Impl {
   std::vector<std::uint64_t> tiles_per_worker;
   Scratch scratch;
   Admission admission;
+  std::unique_ptr<DeviceMap> device;  // kernel cuda alone
+  std::string kernel_note;
 
   Impl(const MapParams& p, std::shared_ptr<Executor> e)
       : params(p),
-        table(kernels::find_table(name(p.kernel))),
+        table(&table_of(p.kernel)),
         executor(e ? std::move(e) : std::shared_ptr<Executor>(make_tbb_executor())),
         store(cell_layout(p, *table), p.memory_cap_bytes),
-        tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {}
+        tiles_per_worker(static_cast<std::size_t>(executor->concurrency())) {
+    if (p.kernel != Kernel::cuda) return;
+    try {
+      device = std::make_unique<DeviceMap>(kernels::make_cuda_device());
+    } catch (const kernels::DeviceError& failed) {
+      kernel_note = std::string(failed.what()) + "; the map is made on the processor";
+    }
+  }
   [[nodiscard]] Pipeline pipeline() noexcept {
-    return {params, *table, compiled, store, changes, *executor, tiles_per_worker, admission};
+    return {params,           *table,    compiled, store,   changes,     *executor,
+            tiles_per_worker, admission, false,    &device, &kernel_note};
   }
   [[nodiscard]] Grid grid() noexcept { return {params, store, changes}; }
 };
 
 Map::Map(const MapParams& params, std::shared_ptr<Executor> executor) {
   if (const auto errors = check(params); !errors.empty()) throw std::invalid_argument(describe(errors));
-  if (kernels::find_table(name(params.kernel)) == nullptr) {
-    throw std::invalid_argument("map.kernel " + std::string(name(params.kernel)) + " cannot run on this processor");
+  if (!kernel_available(params.kernel)) {
+    throw std::invalid_argument("map.kernel " + std::string(name(params.kernel)) + " cannot run here" +
+                                (params.kernel == Kernel::cuda ? ": " + kernels::why_no_cuda() : ""));
   }
   impl_ = std::make_unique<Impl>(params, std::move(executor));
 }
@@ -115,6 +129,7 @@ MapView Map::view() {
 
 void Map::clear() {
   impl_->store.clear();
+  if (impl_->device) impl_->device->forget();
   impl_->changes.clear();
 }
 void Map::clear(CellRect rect) { forget(impl_->grid(), rect); }
@@ -141,7 +156,8 @@ void Map::write(std::span<const Point2> polygon, const Mass& mass) { write_polyg
 
 const MapParams& Map::params() const noexcept { return impl_->params; }
 std::span<const Sensor> Map::sensors() const noexcept { return *impl_->sensors; }
-std::string_view Map::kernel_name() const noexcept { return impl_->table->name; }
+std::string_view Map::kernel_name() const noexcept { return impl_->device ? "cuda" : impl_->table->name; }
+std::string_view Map::kernel_note() const noexcept { return impl_->kernel_note; }
 std::string_view Map::executor_name() const noexcept { return impl_->executor->name(); }
 std::span<const std::uint64_t> Map::tiles_per_worker() const noexcept { return impl_->tiles_per_worker; }
 std::size_t Map::tiles() const noexcept { return impl_->store.size(); }
@@ -156,6 +172,8 @@ const Scratch& MapAccess::scratch(const Map& m) noexcept { return m.impl_->scrat
 Pipeline MapAccess::pipeline(Map& m) noexcept { return m.impl_->pipeline(); }
 std::int64_t& MapAccess::last_stamp_ns(Map& m) noexcept { return m.impl_->store.now_ns; }
 std::int64_t MapAccess::last_stamp_ns(const Map& m) noexcept { return m.impl_->store.now_ns; }
+void MapAccess::use_device(Map& m, std::unique_ptr<DeviceMap> device) { m.impl_->device = std::move(device); }
+DeviceMap* MapAccess::device(Map& m) noexcept { return m.impl_->device.get(); }
 Executor& MapAccess::executor(const Map& m) noexcept { return *m.impl_->executor; }
 
 }  // namespace evigrid

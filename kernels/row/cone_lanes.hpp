@@ -10,7 +10,7 @@
 
 EVIGRID_CELL_BEGIN
 
-inline void split_product(double n, float& high, float& low) {
+EVIGRID_FN void split_product(double n, float& high, float& low) {
   constexpr double kMagic = 6442450944.0;  // 1.5 · 2^32: its last place is 2^-20
   const double h = (n + kMagic) - kMagic;
   high = static_cast<float>(h);
@@ -23,17 +23,20 @@ struct ConeLanes {
   alignas(64) float column_twice[kMicroCells], row_twice[kMicroCells], square[kMicroCells];
   alignas(64) float left_high[kMicroCells], left_low[kMicroCells], right_high[kMicroCells], right_low[kMicroCells];
 
+  ConeLanes() = default;
   explicit ConeLanes(const ConeReading& q) {
-    for (int i = 0; i < kMicroCells; ++i) {
-      const int x = i & 3, y = i >> 2;
-      column[i] = static_cast<float>(x);
-      row[i] = static_cast<float>(y);
-      column_twice[i] = static_cast<float>(2 * x);
-      row_twice[i] = static_cast<float>(2 * y);
-      square[i] = static_cast<float>(x * x + y * y);
-      split_product(static_cast<double>(q.ly) * x - static_cast<double>(q.lx) * y, left_high[i], left_low[i]);
-      split_product(static_cast<double>(q.rx) * y - static_cast<double>(q.ry) * x, right_high[i], right_low[i]);
-    }
+    for (int i = 0; i < kMicroCells; ++i) set(q, i, i);
+  }
+  /// Cell i of the sixteen, at place `at`.
+  EVIGRID_FN void set(const ConeReading& q, int at, int i) {
+    const int x = i & 3, y = i >> 2;
+    column[at] = static_cast<float>(x);
+    row[at] = static_cast<float>(y);
+    column_twice[at] = static_cast<float>(2 * x);
+    row_twice[at] = static_cast<float>(2 * y);
+    square[at] = static_cast<float>(x * x + y * y);
+    split_product(static_cast<double>(q.ly) * x - static_cast<double>(q.lx) * y, left_high[at], left_low[at]);
+    split_product(static_cast<double>(q.rx) * y - static_cast<double>(q.ry) * x, right_high[at], right_low[at]);
   }
 };
 
@@ -43,16 +46,27 @@ struct FirstCells {
   alignas(64) float left_high[kMost], left_low[kMost], right_high[kMost], right_low[kMost];
   alignas(64) float excess[kMost];  // d² − T² of the model's own ring
 
+  /// What it asks of a reading: a copy, for no store into the arrays can change it.
+  struct Edges {
+    double lx, ly, rx, ry, ring;
+    EVIGRID_FN explicit Edges(const ConeReading& q)
+        : lx(q.lx),
+          ly(q.ly),
+          rx(q.rx),
+          ry(q.ry),
+          ring(static_cast<double>(q.ring[kEdge].hi) + static_cast<double>(q.ring[kEdge].lo)) {}
+  };
+  template <bool kExcess>
+  EVIGRID_FN void set(const Edges& e, float x, float y, int at) {
+    const double dx = x, dy = y;
+    split_product(e.ly * dx - e.lx * dy, left_high[at], left_low[at]);
+    split_product(e.rx * dy - e.ry * dx, right_high[at], right_low[at]);
+    if constexpr (kExcess) excess[at] = static_cast<float>(dx * dx + dy * dy - e.ring);
+  }
   template <bool kExcess>
   void fill(const ConeReading& q, const float* x, const float* y, int count) {
-    const double lx = q.lx, ly = q.ly, rx = q.rx, ry = q.ry;
-    const double ring = static_cast<double>(q.ring[kEdge].hi) + static_cast<double>(q.ring[kEdge].lo);
-    for (int i = 0; i < count; ++i) {
-      const double dx = x[i], dy = y[i];
-      split_product(ly * dx - lx * dy, left_high[i], left_low[i]);
-      split_product(rx * dy - ry * dx, right_high[i], right_low[i]);
-      if constexpr (kExcess) excess[i] = static_cast<float>(dx * dx + dy * dy - ring);
-    }
+    const Edges e(q);
+    for (int i = 0; i < count; ++i) set<kExcess>(e, x[i], y[i], i);
     for (int i = count; i % Lanes::kMicros != 0; ++i) {
       left_high[i] = right_high[i] = -1e6f;
       left_low[i] = right_low[i] = excess[i] = 0;

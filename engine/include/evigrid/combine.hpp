@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "evigrid/executor.hpp"
@@ -65,6 +66,8 @@ void from_unorm16(Unorm16Planes<const std::uint16_t> from, Planes<float> to, std
 /// Kernels compiled in that this processor can run, widest last; and the one `automatic` takes.
 std::string_view resolve_kernel_name(Kernel);
 bool kernel_available(Kernel) noexcept;
+/// Empty when Kernel::cuda is available, else why not.
+std::string why_no_cuda();
 
 /// Membership in "occupied for planning" of chapter 14, eq. 14.18, from those of empty and of occupied:
 /// 1 − Ψ²(1 − Ω)(1 − ΨΩ)(1 − (1 − Ψ)(1 − Ω)). Never seen is 1.

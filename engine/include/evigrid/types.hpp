@@ -75,8 +75,9 @@ inline constexpr int kRuleCount = 21, kMapRuleCount = 20;
 enum class Model : std::uint8_t { hughes1992, oriolo1997, li2006, li2014, probability, fuzzy, moravec1985, beam };
 inline constexpr int kModelCount = 8;
 
-/// Which table of kernels runs. `automatic` takes the widest that the processor supports.
-enum class Kernel : std::uint8_t { automatic, scalar, avx2, avx512 };
+/// Which table of kernels runs. `automatic` takes the widest that the processor supports. cuda: readings are fused on
+/// the first GPU, tiles stay there and come back after each call; never chosen by itself.
+enum class Kernel : std::uint8_t { automatic, scalar, avx2, avx512, cuda };
 
 std::string_view name(Rule) noexcept;
 std::string_view name(Model) noexcept;

@@ -17,6 +17,8 @@ inline double offset(std::int64_t t, std::int64_t i0, float f) noexcept {
   return static_cast<double>(t * kernels::kTileSide - i0) - static_cast<double>(f);
 }
 
+inline constexpr std::uint64_t kNoVersion = ~std::uint64_t{0};
+
 struct Tile {
   TileIndex index;
   float* cells = nullptr;  // of the buffer
@@ -25,6 +27,8 @@ struct Tile {
   std::uint32_t place = 0;
   bool fresh = true;                        // made since, never changed
   Tile *newer = nullptr, *older = nullptr;  // change_log.hpp: chain by the last change
+  float* on_device = nullptr;               // device/device_map.hpp: its cells there, those of that version
+  std::uint64_t device_version = kNoVersion;
 };
 
 class TileStore final : public TileSource {

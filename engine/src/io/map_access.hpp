@@ -11,6 +11,7 @@
 
 namespace evigrid {
 
+class DeviceMap;
 struct Pipeline;
 struct Scratch;
 
@@ -26,6 +27,8 @@ struct MapAccess {
   static Scratch& scratch(Map&) noexcept;
   static const Scratch& scratch(const Map&) noexcept;
   static Pipeline pipeline(Map&) noexcept;
+  static void use_device(Map&, std::unique_ptr<DeviceMap>);  ///< for tests, with the emulated one
+  static DeviceMap* device(Map&) noexcept;                   ///< null where there is none
   static Executor& executor(const Map&) noexcept;
 };
 

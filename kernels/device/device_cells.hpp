@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one thread of a device does: it owns one cell of a square of 16 × 16, keeps its planes in registers, and takes
+// the readings of the square in their order. No two threads share a cell, so there is nothing to synchronise and the
+// order of combination is that of the map. Bits are those of the tables: the text is the same.
+#pragma once
+#include "kernels/device/lane_device.hpp"
+// After the lanes.
+#include "kernels/cell/mass.hpp"
+#include "kernels/cell/one_sided.hpp"
+#include "kernels/cell/poly.hpp"
+#include "kernels/cell/state_sums.hpp"
+#include "kernels/device/device.hpp"
+#include "kernels/row/cone_cells.hpp"
+#include "kernels/row/fan_cells.hpp"
+#include "kernels/row/fan_class.hpp"
+
+EVIGRID_CELL_BEGIN
+
+/// What all readings of a batch share.
+struct DeviceBatchArgs {
+  int planes = 3;
+  bool conflict_plane = false;
+  RuleArgs rule{};
+};
+
+inline constexpr int kSquareSide = 16, kSquareCells = 256, kSquaresPerSide = 4, kSquaresPerTile = 16;
+
+/// A square of a tile, cells counted from the tile's first.
+struct Square16 {
+  std::int64_t x = 0, y = 0;  // first cell of the map
+  EVIGRID_FN Square16(const DeviceTile& tile, int square)
+      : x(tile.x * kTileSide + square % kSquaresPerSide * kSquareSide),
+        y(tile.y * kTileSide + square / kSquaresPerSide * kSquareSide) {}
+};
+
+/// Where a thread's cell lies: micro-tiles row by row, sixteen threads each.
+struct Place {
+  int micro_x, micro_y, cell;  // micro-tile of the square, cell of the micro-tile
+  EVIGRID_FN explicit Place(int thread) : micro_x(thread / 16 % 4), micro_y(thread / 64), cell(thread % 16) {}
+  /// Of its first plane among the tile's floats.
+  EVIGRID_FN std::size_t offset(int square, int planes) const {
+    const int x = square % kSquaresPerSide * 4 + micro_x, y = square / kSquaresPerSide * 4 + micro_y;
+    return static_cast<std::size_t>((y * kMicrosPerSide + x) * planes) * kMicroCells + static_cast<std::size_t>(cell);
+  }
+};
+
+/// Which of the tile's 8 × 8 blocks of cells holds the place.
+EVIGRID_FN int block_of(int square, const Place& place) {
+  return (square / kSquaresPerSide * 2 + place.micro_y / 2) * 8 + square % kSquaresPerSide * 2 + place.micro_x / 2;
+}
+
+/// Offset of a cell's centre from an apex at cell `index` plus `fraction`: exact on the lattice.
+EVIGRID_FN float offset_from(std::int64_t cell, std::int64_t index, float fraction) {
+  return static_cast<float>(static_cast<double>(cell - index) - static_cast<double>(fraction));
+}
+
+inline constexpr float kHalfDiagonal = 10.7f;  // of the cell centres of a square, with room for rounding
+
+/// False only where no cell of the square can be in the cone.
+EVIGRID_FN bool may_touch(const ConeReading& q, const Square16& at) {
+  const float x = offset_from(at.x, q.i0, q.fx) + 7.5f, y = offset_from(at.y, q.j0, q.fy) + 7.5f;
+  const float d = root(x * x + y * y), room = kHalfDiagonal + 1e-5f * d;
+  return d <= q.outer + room && d >= q.inner - room && q.ly * x - q.lx * y >= -room && q.rx * -y + q.ry * x <= room;
+}
+/// False only where no cell of the square can be in the fan's reach.
+EVIGRID_FN bool may_touch(const FanReading& q, const Square16& at) {
+  const float x = offset_from(at.x, q.i0, q.fx) + 7.5f, y = offset_from(at.y, q.j0, q.fy) + 7.5f;
+  const float d = root(x * x + y * y), room = kHalfDiagonal + 1e-5f * d;
+  return d <= q.far + room && d >= q.near - room;
+}
+
+/// States whose conflict is an effort of its own, made only where a plane keeps it.
+template <class State>
+inline constexpr bool kConflictIsExtra = false;
+template <>
+inline constexpr bool kConflictIsExtra<LargerWeights> = true;
+template <>
+inline constexpr bool kConflictIsExtra<LogWeights> = true;
+template <>
+inline constexpr bool kConflictIsExtra<MeanCells> = true;
+template <>
+inline constexpr bool kConflictIsExtra<LogOdds> = true;
+
+/// One cell between its load and its store.
+template <class State>
+struct OwnCell {
+  float plane[State::kPlanes];
+  float conflict = 0, con = 0, last = 0;
+  float max_k = 0;
+  std::uint32_t updates = 0, totals = 0;
+
+  EVIGRID_FN void load(const float* p, const DeviceBatchArgs& a) {
+    for (int i = 0; i < State::kPlanes; ++i) plane[i] = p[i * kMicroCells];
+    if (!a.conflict_plane) return;
+    p += State::kPlanes * kMicroCells;
+    conflict = *p;
+    if (a.rule.con) con = *(p += kMicroCells);
+    if (a.rule.last) last = *(p += kMicroCells);
+  }
+  EVIGRID_FN void store(float* p, const DeviceBatchArgs& a) const {
+    for (int i = 0; i < State::kPlanes; ++i) p[i * kMicroCells] = plane[i];
+    if (!a.conflict_plane) return;
+    p += State::kPlanes * kMicroCells;
+    *p = conflict;
+    if (a.rule.con) *(p += kMicroCells) = con;
+    if (a.rule.last) *(p += kMicroCells) = last;
+  }
+  EVIGRID_FN void count(float k, const DeviceBatchArgs& a) {
+    ++updates;
+    max_k = max_of(max_k, k);
+    if (!a.conflict_plane) return;
+    conflict = conflict + k;
+    if (a.rule.con) con = con + log_one_plus(k / max_of(1.0f - k, 1e-12f));
+    last = k;
+  }
+  template <class S>
+  EVIGRID_FN void fuse(const S& source, const DeviceBatchArgs& a) {
+    const auto next = State::template update<true>(plane, source, a.rule);
+    float k = next.k;
+    if constexpr (kConflictIsExtra<State>) k = a.conflict_plane ? k : 0.0f;
+    for (int i = 0; i < State::kPlanes; ++i) plane[i] = next.plane[i];
+    if constexpr (State::kTotalPossible) totals += next.total ? 1u : 0u;
+    count(k, a);
+  }
+};
+
+template <class State, class Model>
+EVIGRID_FN void fuse_one(OwnCell<State>& own, const ConeReading& q, const Square16& at, const Place& place,
+                         const DeviceBatchArgs& a) {
+  constexpr bool kExcess = kAsksExcess<Model>;
+  constexpr Paradox kParadox = paradox_of<State>();
+  const float x = offset_from(at.x + place.micro_x * kMicroSide, q.i0, q.fx),
+              y = offset_from(at.y + place.micro_y * kMicroSide, q.j0, q.fy);
+  ConeLanes lanes;
+  FirstCells first;
+  lanes.set(q, 0, place.cell);
+  first.template set<kExcess>(FirstCells::Edges(q), x, y, 0);
+  Polar<float> polar;
+  if (!locate<kRim, kExcess>(q, lanes, first, &x, &y, 0, 0, polar)) return;
+  if constexpr (kTold<kParadox, Model>) {
+    if (!q.contextual.used) return own.fuse(source_of<kParadox, Model, kRim>(q, polar), a);
+  }
+  own.fuse(source_of<kConsumed, Model, kRim>(q, polar), a);
+}
+
+template <class State>
+EVIGRID_FN void fuse_one(OwnCell<State>& own, const FanReading& q, const Square16& at, const Place& place,
+                         const DeviceBatchArgs& a) {
+  const float dx = offset_from(at.x + place.micro_x * kMicroSide, q.i0, q.fx) + Lanes::column(place.cell),
+              dy = offset_from(at.y + place.micro_y * kMicroSide, q.j0, q.fy) + Lanes::row(place.cell);
+  const float d = root(mul_add(dx, dx, dy * dy));
+  FanClasses c = classify_anywhere(q, dx, dy, d);
+  if (c.unsure) {
+    const int decided = fan_class(q, dx, dy, static_cast<int>(c.index));
+    c.empty = decided == 1, c.occupied = decided == 2;
+  }
+  if (!c.empty && !c.occupied) return;
+  if constexpr (RuleOfMasses<State>::kThere) {
+    using Rule = typename RuleOfMasses<State>::type;
+    const auto source = measure_beam(q, c.occupied ? q.occupied : q.empty, d);
+    // An occupied cell is the mirror image of an empty one.
+    const int e = c.occupied ? 1 : 0;
+    const auto next = Rule::template combine<MapState>(
+        Cell<float>{c.occupied ? own.plane[1] : own.plane[0], c.occupied ? own.plane[0] : own.plane[1], own.plane[2]},
+        source);
+    own.plane[0] = e == 1 ? next.cell.b : next.cell.a;
+    own.plane[1] = e == 1 ? next.cell.a : next.cell.b;
+    own.plane[2] = next.cell.u;
+    if constexpr (Rule::kTotalPossible) own.totals += next.total ? 1u : 0u;
+    own.count(next.k, a);
+  } else {
+    own.fuse(measure_beam_plain(q, c.occupied, d), a);
+  }
+}
+
+EVIGRID_CELL_END
