@@ -231,7 +231,6 @@ bool any_dependent(const Pipeline& p) {
 
 /// What a device's kernels do not do; empty: they do the whole batch.
 std::string_view not_by_device(const Pipeline& p) {
-  if (p.params.decay_s > 0) return "a map that forgets is fused on the processor";
   if (any_dependent(p)) return "readings that are no distinct evidence are fused on the processor";
   if (!p.admission.guarded.empty()) return "a map with protected areas is fused on the processor";
   return {};
