@@ -148,7 +148,8 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
                   "serial, tbb, openmp or spin; the map is the same. spin: threads\nthat look for work for 20 ms "
                   "before they sleep, for single scans at 50 Hz or more")
       ->capture_default_str();
-  command.add_option("--kernel", o.kernel, "auto, scalar, avx2, avx512 or cuda; the map is the same")->capture_default_str();
+  command.add_option("--kernel", o.kernel, "auto, scalar, avx2, avx512 or cuda; the map is the same")
+      ->capture_default_str();
   command.add_option("--json", o.json, "also write report.json to this file; - for standard output");
   command.add_option("--layers", o.layers,
                      "also draw these, comma-separated, or all, as layer_NAME.png: " + look_names());

@@ -87,8 +87,8 @@ Json make_report(const Log& log, const Fused& f, const MappingOptions& o, const 
 
 }  // namespace
 
-void write_results(OutDir& out, const Log& log, const Fused& fused, const Layers& layers,
-                   const MappingOptions& options, Clock::time_point start, const Json& extra) {
+void write_results(OutDir& out, const Log& log, const Fused& fused, const Layers& layers, const MappingOptions& options,
+                   Clock::time_point start, const Json& extra) {
   if (layers.rect.empty()) throw InputError("no reading could be used: all were refused, the map is empty");
   Json report = make_report(log, fused, options, layers);
   std::vector<Pose2> path;
@@ -129,7 +129,8 @@ void write_results(OutDir& out, const Log& log, const Fused& fused, const Layers
   if (!options.json.empty() && options.json != "-") out.write_outside(options.json, bytes);
   out.commit();
   for (const std::string& warning : log.warnings) {
-    if (log.format == "scene") std::cerr << "evigrid: warning: " << warning << '\n';  // those of a recording are counted
+    if (log.format == "scene")
+      std::cerr << "evigrid: warning: " << warning << '\n';  // those of a recording are counted
   }
   if (options.json == "-") {
     std::cout << bytes;

@@ -224,9 +224,16 @@ void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
       &all_of);
 }
 
-bool any_dependent(const Pipeline& p) noexcept {
+bool any_dependent(const Pipeline& p) {
   return std::any_of(p.sensors.begin(), p.sensors.end(),
                      [](const CompiledSensor& c) { return c.sensor.dependence != Dependence::independent; });
+}
+
+/// What a device's kernels do not do; empty: they do the whole batch.
+std::string_view not_by_device(const Pipeline& p) {
+  if (any_dependent(p)) return "readings that are no distinct evidence are fused on the processor";
+  if (!p.admission.guarded.empty()) return "a map with protected areas is fused on the processor";
+  return {};
 }
 
 /// Every region by its task, regions in parallel.
@@ -249,12 +256,13 @@ void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule, 
 /// False where there is no device, and when it fails: the map then goes on without it, and says why.
 bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) {
   if (p.device == nullptr || !*p.device) return false;
-  if (any_dependent(p) || !p.admission.guarded.empty()) {  // tiles change behind its back: they are sent again later
-    *p.note = "sensors with dependent readings and protected areas are fused by the processor";
+  if (const std::string_view why = not_by_device(p); !why.empty()) {
+    *p.note = why;
     return false;
   }
   try {
     s.stats.push_back((*p.device)->fuse(p, s, rule));
+    p.note->clear();
     return true;
   } catch (const kernels::DeviceError& failed) {
     *p.note = std::string(failed.what()) + "; the map goes on on the processor";

@@ -25,7 +25,7 @@ struct Pipeline {
   Executor& executor;
   std::vector<std::uint64_t>& tiles_per_worker;
   const Admission& admission;
-  bool undo = false;  // takes the scans back
+  bool undo = false;                             // takes the scans back
   std::unique_ptr<DeviceMap>* device = nullptr;  // null, or what fuses instead of the table; dropped when it fails,
   std::string* note = nullptr;                   // and why
 };

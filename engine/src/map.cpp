@@ -49,10 +49,8 @@ struct Map::Impl {
     }
   }
   [[nodiscard]] Pipeline pipeline() noexcept {
-    Pipeline p{params, *table, compiled, store, changes, *executor, tiles_per_worker, admission};
-    p.device = &device;
-    p.note = &kernel_note;
-    return p;
+    return {params,           *table,    compiled, store,   changes,     *executor,
+            tiles_per_worker, admission, false,    &device, &kernel_note};
   }
   [[nodiscard]] Grid grid() noexcept { return {params, store, changes}; }
 };

@@ -15,9 +15,11 @@ struct Named {
   E value;
   std::string_view name;
 };
-constexpr auto kKernelNames = std::to_array<Named<Kernel>>(
-    {{Kernel::automatic, "auto"}, {Kernel::scalar, "scalar"}, {Kernel::avx2, "avx2"}, {Kernel::avx512, "avx512"},
-     {Kernel::cuda, "cuda"}});
+constexpr auto kKernelNames = std::to_array<Named<Kernel>>({{Kernel::automatic, "auto"},
+                                                            {Kernel::scalar, "scalar"},
+                                                            {Kernel::avx2, "avx2"},
+                                                            {Kernel::avx512, "avx512"},
+                                                            {Kernel::cuda, "cuda"}});
 constexpr auto kLikelihoodNames =
     std::to_array<Named<Likelihood>>({{Likelihood::betp, "betp"}, {Likelihood::plp, "plp"}});
 constexpr auto kDependenceNames = std::to_array<Named<Dependence>>({{Dependence::independent, "independent"},

@@ -12,7 +12,8 @@ EVIGRID_CELL_BEGIN
 constexpr unsigned kThreads = 256, kPairs = 4;
 
 template <class Rule>
-__global__ void __launch_bounds__(kThreads) dense_pairs(const DensePlanes p, std::size_t n, unsigned long long* totals) {
+__global__ void __launch_bounds__(kThreads)
+    dense_pairs(const DensePlanes p, std::size_t n, unsigned long long* totals) {
   const std::size_t first = static_cast<std::size_t>(blockIdx.x) * (kThreads * kPairs) + threadIdx.x;
   unsigned total = 0;
 #pragma unroll

@@ -62,10 +62,12 @@ class Parcel {
   }
   template <class T>
   T* on_device(T* on_host) const {
-    return reinterpret_cast<T*>(device_.get<std::byte>() + (reinterpret_cast<std::byte*>(on_host) - host_.get<std::byte>()));
+    return reinterpret_cast<T*>(device_.get<std::byte>() +
+                                (reinterpret_cast<std::byte*>(on_host) - host_.get<std::byte>()));
   }
   void send(cudaStream_t s) {
-    cuda_check(cudaMemcpyAsync(device_.get<std::byte>(), host_.get<std::byte>(), used_, cudaMemcpyHostToDevice, s), "upload");
+    cuda_check(cudaMemcpyAsync(device_.get<std::byte>(), host_.get<std::byte>(), used_, cudaMemcpyHostToDevice, s),
+               "upload");
   }
 
  private:
@@ -126,7 +128,8 @@ class Cuda final : public Device {
     auto* const counts = counts_host_.room<DeviceCounts>(1);
     auto* const reached = reached_host_.room<unsigned long long>(tiles);
     cuda_check(cudaMemcpyAsync(counts, args_.counts, sizeof *counts, cudaMemcpyDeviceToHost, work_), "counts");
-    cuda_check(cudaMemcpyAsync(reached, args_.reached, tiles * sizeof *reached, cudaMemcpyDeviceToHost, work_), "masks");
+    cuda_check(cudaMemcpyAsync(reached, args_.reached, tiles * sizeof *reached, cudaMemcpyDeviceToHost, work_),
+               "masks");
     cuda_check(cudaStreamSynchronize(work_), "fusion");
     times_.upload_s = started_.since(sent_);
     times_.fuse_s = fused_.since(started_);
@@ -148,7 +151,8 @@ class Cuda final : public Device {
   std::uint64_t combine(int rule, const DensePlanes& p, std::size_t n) override {
     const std::size_t bytes = n * sizeof(float);
     float* const at = arrays_.room<float>(8 * n + 2);
-    DensePlanes on{at, at + n, at + 2 * n, at + 3 * n, at + 4 * n, at + 5 * n, at, at + n, at + 2 * n, at + 6 * n, at + 7 * n};
+    DensePlanes on{at, at + n, at + 2 * n, at + 3 * n, at + 4 * n, at + 5 * n,
+                   at, at + n, at + 2 * n, at + 6 * n, at + 7 * n};
     auto* const totals = counts_.room<unsigned long long>(sizeof(DeviceCounts) / sizeof(unsigned long long) + 1);
     const float* const from[6] = {p.ae, p.ao, p.au, p.be, p.bo, p.bu};
     sent_.record(work_);
@@ -229,7 +233,8 @@ class Cuda final : public Device {
     parcel_.send(work_);
     if (new_tiles > 0) {
       scatter_tiles<<<static_cast<unsigned>(new_tiles), 256, 0, work_>>>(
-          parcel_.on_device(places), reinterpret_cast<const float4*>(parcel_.on_device(cells)), static_cast<unsigned>(floats / 4));
+          parcel_.on_device(places), reinterpret_cast<const float4*>(parcel_.on_device(cells)),
+          static_cast<unsigned>(floats / 4));
       cuda_check(cudaGetLastError(), "launch");
     }
     args_.args = {b.planes, b.conflict_plane, b.args};
@@ -254,7 +259,8 @@ class Cuda final : public Device {
     auto** const list = list_host_.room<float*>(coming_);
     auto** const list_there = list_device_.room<float*>(coming_);
     std::copy(updated_.begin(), updated_.end(), list);
-    cuda_check(cudaMemcpyAsync(list_there, list, coming_ * sizeof(float*), cudaMemcpyHostToDevice, back_stream_), "list");
+    cuda_check(cudaMemcpyAsync(list_there, list, coming_ * sizeof(float*), cudaMemcpyHostToDevice, back_stream_),
+               "list");
     for (std::size_t i = 0; i < pieces_; ++i) {
       const std::size_t first = i * kPiece, n = std::min(kPiece, coming_ - first);
       gather_tiles<<<static_cast<unsigned>(n), 256, 0, back_stream_>>>(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel: a block per square of 16 × 16 cells and run of readings, a thread per cell. The block asks 256 readings at
-// a time which of them may touch its square, keeps those in order, and every thread takes them one by one.
+// The kernel: a block per square of 16 × 16 cells and run of readings, a thread per cell. The block asks 256 readings
+// at a time which of them may touch its square, keeps those in order, and every thread takes them one by one.
 #pragma once
 #include <cuda_runtime.h>
 
@@ -80,7 +80,8 @@ __global__ void __launch_bounds__(kSquareCells) fuse_squares(const LaunchArgs l)
   }
   if (own.updates > 0) own.store(cell, l.args);
   // Counts: over the warp, then one addition a warp.
-  const unsigned updates = __reduce_add_sync(0xffffffffu, own.updates), totals = __reduce_add_sync(0xffffffffu, own.totals);
+  const unsigned updates = __reduce_add_sync(0xffffffffu, own.updates),
+                 totals = __reduce_add_sync(0xffffffffu, own.totals);
   const unsigned most = __reduce_max_sync(0xffffffffu, __float_as_uint(own.max_k));  // not negative: ordered as bits
   if (lane == 0 && updates > 0) {
     atomicAdd(&l.counts->cells, static_cast<unsigned long long>(updates));

@@ -149,6 +149,31 @@ TEST_P(OnDevice, ChangesCoverWhatChanged) {
   EXPECT_GT(changed, 100U);
 }
 
+/// What its kernels do not do, the processor does between two batches of the device, and the map says so.
+TEST_P(OnDevice, MapsThatItDoesNotServeAreFusedOnTheProcessor) {
+  const auto d = testing::drive(Model::li2014, 9, 11);
+  const auto both = [&](Dependence dependence, bool guarded) {
+    Map host({}, make_serial_executor()), device = on_device({});
+    for (Map* map : {&host, &device}) {
+      for (Sensor s : d->sensors) {
+        s.dependence = dependence;
+        map->add(s);
+      }
+      for (std::size_t at = 0; at < d->scans.size(); at += 3) {
+        if (guarded && at == 3) map->protect({0, 0, 40, 40});
+        if (guarded && at == 6) map->unprotect();
+        map->integrate(std::span(d->scans).subspan(at, 3));
+        if (map == &device && at == 3) {
+          EXPECT_NE(map->kernel_note().find("processor"), std::string_view::npos);
+        }
+      }
+    }
+    EXPECT_EQ(device.hash(), host.hash()) << name(dependence) << guarded;
+  };
+  both(Dependence::once_per_scan, false);
+  both(Dependence::independent, true);
+}
+
 TEST_P(OnDevice, DenseCombinationGivesTheSameBits) {
   constexpr std::size_t kPairs = 10'001;
   std::mt19937 rng(3);

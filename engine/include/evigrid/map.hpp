@@ -165,7 +165,8 @@ class Map {
   void write(std::span<const Point2> polygon, const Mass&);
   [[nodiscard]] const MapParams& params() const noexcept;
   [[nodiscard]] std::span<const Sensor> sensors() const noexcept;
-  [[nodiscard]] std::string_view kernel_name() const noexcept;  ///< what really runs: "scalar", "avx2", "avx512", "cuda"
+  [[nodiscard]] std::string_view kernel_name()
+      const noexcept;  ///< what really runs: "scalar", "avx2", "avx512", "cuda"
   /// Why the kernel asked for does not run, or runs no longer: a device that failed or ran out of memory. Mostly empty.
   [[nodiscard]] std::string_view kernel_note() const noexcept;
   [[nodiscard]] std::string_view executor_name() const noexcept;

@@ -24,11 +24,11 @@ struct MapAccess {
   static std::int64_t& last_stamp_ns(Map&) noexcept;  ///< the smallest number before the first scan
   static std::int64_t last_stamp_ns(const Map&) noexcept;
   static std::int64_t last_stamp_ns(const MapView&) noexcept;
-  static void use_device(Map&, std::unique_ptr<DeviceMap>);  ///< for tests, with the emulated one
-  static DeviceMap* device(Map&) noexcept;  ///< null where there is none
   static Scratch& scratch(Map&) noexcept;
   static const Scratch& scratch(const Map&) noexcept;
   static Pipeline pipeline(Map&) noexcept;
+  static void use_device(Map&, std::unique_ptr<DeviceMap>);  ///< for tests, with the emulated one
+  static DeviceMap* device(Map&) noexcept;                   ///< null where there is none
   static Executor& executor(const Map&) noexcept;
 };
 
