@@ -15,10 +15,9 @@ namespace {
 using Json = nlohmann::json;
 
 std::string mapped(const TempDir& dir, const std::string& name, const std::string& range,
-                   std::vector<std::string> more = {}) {
+                   const std::string& cell = "0.1") {
   std::vector<std::string> all{
-      "map", dir.write(name + ".log", flaser(180, range, 3)), "-o", dir.at(name), "--cell", "0.1", "--rule", "pcr5"};
-  all.insert(all.end(), more.begin(), more.end());
+      "map", dir.write(name + ".log", flaser(180, range, 3)), "-o", dir.at(name), "--cell", cell, "--rule", "pcr5"};
   const Ran ran = evigrid(all);
   EXPECT_EQ(ran.code, 0) << ran.err;
   return dir.at(name);
@@ -46,7 +45,7 @@ TEST(MergeCommand, IsTheLibrarysMergeInTheOrderGiven) {
 TEST(MergeCommand, BadInputIsNamedAndLeavesNothing) {
   const TempDir dir;
   const std::string a = mapped(dir, "a", "3.5"), b = mapped(dir, "b", "2.5");
-  const std::string other = mapped(dir, "other", "2.5", {"--cell", "0.2"});
+  const std::string other = mapped(dir, "other", "2.5", "0.2");
   const auto refused = [&](std::vector<std::string> args, const std::string& why) {
     args.insert(args.begin(), "merge");
     args.insert(args.end(), {"-o", dir.at("none")});
