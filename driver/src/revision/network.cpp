@@ -13,7 +13,6 @@ namespace evigrid::driver {
 namespace {
 
 constexpr const char* kFormat = "evigrid revision 1";
-constexpr double kMostWeight = 1e6;
 
 double sigmoid(double t) { return 1 / (1 + std::exp(-t)); }
 
@@ -85,8 +84,8 @@ std::vector<Revision> read_revisions(const std::string& path) {
     r.sensor = number.get<std::size_t>();
     r.model = model.get<std::string>();
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      if (!weights[i].is_number() || !(std::abs(weights[i].get<double>()) <= kMostWeight))
-        fail(fmt::format("{}weights[{}]: is no number within ±{:g}", where, i, kMostWeight));
+      if (!weights[i].is_number() || !(std::abs(weights[i].get<double>()) <= Network::kMostWeight))
+        fail(fmt::format("{}weights[{}]: is no number within ±{:g}", where, i, Network::kMostWeight));
       r.network.weight[i] = weights[i].get<double>();
     }
     out.push_back(std::move(r));

@@ -17,6 +17,8 @@ using Gbba = std::array<double, 4>;
 struct Network {
   static constexpr int kIn = 4, kHidden = 5, kOut = 4;
   static constexpr int kWeights = kHidden * (kIn + 1) + kOut * (kHidden + 1);
+  /// Training drives saturated neurons far out; beyond this, products and sums of them could overflow.
+  static constexpr double kMostWeight = 1e100;
   /// Row by row, the bias last: those of the hidden neurons, then those of the outputs.
   std::array<double, kWeights> weight{};
 

@@ -83,6 +83,7 @@ double fit(const std::vector<Example>& examples, std::mt19937_64& random, Networ
   for (int step = 0; step < kMostSteps && lm.fnorm() * lm.fnorm() > kGoal; ++step) {
     if (lm.minimizeOneStep(w) != Eigen::LevenbergMarquardtSpace::Running) break;
   }
+  if (!(w.cwiseAbs().maxCoeff() <= Network::kMostWeight)) return INFINITY;  // no file could hold it
   network = Errors::network(w);
   return lm.fnorm() * lm.fnorm();
 }
