@@ -30,6 +30,8 @@ class Page {
   void end_row();
   /// Markup as it is: an SVG plot, or a section of its own with its script.
   void raw(std::string_view markup, std::string_view caption = {});
+  /// What another page says below its title: sections that are made before what comes above them.
+  void append(const Page& sections) { body_ += sections.body_; }
   [[nodiscard]] std::string html() const;
 
  private:

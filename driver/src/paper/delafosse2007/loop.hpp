@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The closed loop of Delafosse et al. 2007: stop, see, match, correct the place, fuse; and how the beacons that come out
+// of it lie by the true edges.
+#pragma once
+#include <vector>
+
+#include "out/layers.hpp"
+#include "paper/delafosse2007/beacons.hpp"
+#include "paper/paper_world.hpp"
+
+namespace evigrid::driver {
+
+inline constexpr double kGate_m = 0.5;        // figure 9
+inline constexpr double kLandmark_m = 0.3;    // what a beacon has to keep
+inline constexpr double kSure = 0.8;          // m(yes) of a beacon that counts, seen again at least kSeen times
+inline constexpr std::size_t kSeen = 3;
+
+/// What a beacon's cells are told: its whole accumulated mass at every match, as the paper has it, or only what is new.
+enum class Evidence { accumulated, increment };
+
+struct LoopRun {
+  std::vector<Beacon> beacons;
+  std::vector<Pose2> way;  ///< corrected
+  std::vector<double> error_m, odometry_error_m;
+  std::size_t primitives = 0, parallel = 0, too_wide = 0, matches = 0, false_matches = 0, wrong = 0;
+  Layers layers;
+};
+
+struct LoopWorld {
+  PaperWorld room;
+  std::vector<raycast::Point> edges;
+  std::vector<double> radii_m;
+  CellRect rect{};
+  std::vector<scenes::Pose> truth, odometry;
+};
+
+[[nodiscard]] LoopWorld make_loop_world(const PaperOptions& options);
+[[nodiscard]] LoopRun map_loop(const LoopWorld& world, Evidence evidence);
+
+struct Landmarks {
+  std::size_t sure = 0, within = 0, found = 0;  ///< beacons that count; of those near an edge; edges with one near
+  double mean_m = 0, most_m = 0;                ///< from such a beacon to the nearest edge
+};
+[[nodiscard]] Landmarks judge(const LoopRun& run, const LoopWorld& world);
+
+}  // namespace evigrid::driver
