@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evigrid/scenes/simulate.hpp"
+#include "evigrid/scenes/truth.hpp"
 
 namespace evigrid::driver {
 namespace {
