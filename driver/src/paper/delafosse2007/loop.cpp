@@ -131,5 +131,4 @@ Landmarks judge(const LoopRun& m, const LoopWorld& w) {
   return out;
 }
 
-
 }  // namespace evigrid::driver

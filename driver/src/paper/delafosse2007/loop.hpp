@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closed loop of Delafosse et al. 2007: stop, see, match, correct the place, fuse; and how the beacons that come out
-// of it lie by the true edges.
+// The closed loop of Delafosse et al. 2007: stop, see, match, correct the place, fuse; and how the beacons that come
+// out of it lie by the true edges.
 #pragma once
 #include <vector>
 
@@ -10,9 +10,9 @@
 
 namespace evigrid::driver {
 
-inline constexpr double kGate_m = 0.5;        // figure 9
-inline constexpr double kLandmark_m = 0.3;    // what a beacon has to keep
-inline constexpr double kSure = 0.8;          // m(yes) of a beacon that counts, seen again at least kSeen times
+inline constexpr double kGate_m = 0.5;      // figure 9
+inline constexpr double kLandmark_m = 0.3;  // what a beacon has to keep
+inline constexpr double kSure = 0.8;        // m(yes) of a beacon that counts, seen again at least kSeen times
 inline constexpr std::size_t kSeen = 3;
 
 /// What a beacon's cells are told: its whole accumulated mass at every match, as the paper has it, or only what is new.
