@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dense combination beside memory loops of the same pattern, on the same arrays, in the same binary and run. Names:
 // CASE/RULE/cells:N/threads:T. Counters: `bytes_per_cell` as counted (reads and writes, no write-allocate),
-// `yardstick_share` = cells/s over those of the fastest memory loop of the same pattern, size and threads so far, best
-// round against best round. Each round starts from fresh masses, outside the clock: combined again and again they would
-// end in denormals. Arrays are aligned to 2 MB and ask for huge pages.
-// Usage: bench_dense [--benchmark_filter=...]; one family of sizes at a time is quickest.
+// `yardstick_share` = cells/s over those of the memory loop of the same pattern, size and threads: the loop runs in
+// every round beside the rule, a machine's speed drifts by half within seconds; the median of the rounds' ratios, of
+// the faster loop where there are two. Each round starts from fresh masses, outside the clock: combined again and again
+// they would end in denormals, which some processors take a hundred times as long for. Arrays are aligned to 2 MB and
+// ask for huge pages. Usage: bench_dense [--benchmark_filter=...]; one family of sizes at a time is quickest.
 #include <benchmark/benchmark.h>
 #include <sys/mman.h>
 
@@ -12,11 +13,12 @@
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <map>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bench/peers/alternate.hpp"
 #include "evigrid/evigrid.hpp"
 
 namespace {
@@ -139,114 +141,124 @@ void in_blocks(Executor& executor, std::size_t n, const Body& body) {
       &context);
 }
 
-/// The fastest loop of each pattern, size and number of threads, in cells (triad, copy: elements) per second.
-std::map<std::string, double> fastest_loop;
+using Round = std::function<void(Arrays&, Executor&)>;
+/// What a rule is held against.
+struct Yardstick {
+  std::vector<Round> loops;  ///< the fastest counts
+  double scale = 1;          ///< bytes of a cell of the rule over those of one of the loop
+  bool on_masses = false;    ///< its operands, too, must be fresh
+};
 
-/// Times `round` on fresh masses. `loop`: this is a yardstick of that pattern; else it is compared with it.
-template <class Round>
-void measure(benchmark::State& state, const std::string& pattern, bool loop, double bytes, std::size_t sources,
-             double scale, const Round& round) {
+double seconds(const Round& round, Arrays& x, Executor& executor, int repeats) {
+  const auto begin = Clock::now();
+  for (int i = 0; i < repeats; ++i) round(x, executor);
+  return std::chrono::duration<double>(Clock::now() - begin).count() / repeats;
+}
+
+void measure(benchmark::State& state, const Yardstick& yardstick, double bytes, std::size_t sources,
+             const Round& round) {
   const auto n = static_cast<std::size_t>(state.range(0));
   Arrays& x = arrays(n, sources);
   const auto executor = threads_of(state.range(1));
-  const int repeats = static_cast<int>(std::max<std::size_t>(1, (std::size_t{1} << 18) / n));
-  double best = 0;
+  const int repeats = n < (std::size_t{1} << 16) ? 4 : 1;  // fewer than make denormals, enough for the clock
+  std::vector<double> rates;
+  std::vector<std::vector<double>> shares(yardstick.loops.size());
   x.renew();
   round(x, *executor);
   for (auto _ : state) {
     x.renew();
     if (repeats > 1) round(x, *executor);  // in cache
-    const auto begin = Clock::now();
-    for (int i = 0; i < repeats; ++i) round(x, *executor);
-    const double s = std::chrono::duration<double>(Clock::now() - begin).count() / repeats;
+    const double s = seconds(round, x, *executor, repeats);
     state.SetIterationTime(s);
-    best = std::max(best, static_cast<double>(n) / s);
+    rates.push_back(static_cast<double>(n) / s);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      if (yardstick.on_masses) x.renew();
+      shares[i].push_back(yardstick.scale * seconds(yardstick.loops[i], x, *executor, repeats) / s);
+    }
   }
-  const std::string key = pattern + "/" + std::to_string(n) + "/" + std::to_string(state.range(1));
-  if (loop) {
-    fastest_loop[key] = std::max(fastest_loop[key], best);
-  } else if (const auto at = fastest_loop.find(key); at != fastest_loop.end()) {
-    state.counters["yardstick_share"] = scale * best / at->second;
+  if (!shares.empty()) {
+    double share = bench::median(shares[0]);
+    for (const auto& of_loop : shares) share = std::min(share, bench::median(of_loop));
+    state.counters["yardstick_share"] = share;
   }
-  state.counters["best_cells_per_s"] = best;
+  state.counters["best_cells_per_s"] = *std::max_element(rates.begin(), rates.end());
   state.counters["bytes_per_cell"] = bytes;
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));
 }
 
+void add_in_turns(Arrays& x, Executor& executor, bool plane_by_plane) {
+  in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) {
+    Masses& b = *x.b[0];
+    const auto word = [&](float* p) { return reinterpret_cast<Words*>(p) + at; };
+    Words* to[3] = {word(x.a.e.data()), word(x.a.o.data()), word(x.a.u.data())};
+    const Words* from[3] = {word(b.e.data()), word(b.o.data()), word(b.u.data())};
+    if (plane_by_plane) {
+      for (int p = 0; p < 3; ++p) add_plane(to[p], from[p], n);
+    } else {
+      add_in_bursts(to, from, 3, n / 64 * 64);
+    }
+  });
+}
+void add_bursts(Arrays& x, Executor& executor) { add_in_turns(x, executor, false); }
+void add_planes(Arrays& x, Executor& executor) { add_in_turns(x, executor, true); }
+void add_unorm16(Arrays& x, Executor& executor) {
+  in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) {
+    const auto word = [&](std::uint16_t* p) { return reinterpret_cast<Words*>(p + at); };
+    add_plane(word(x.ae.data()), word(x.be.data()), n / 2);
+    add_plane(word(x.ao.data()), word(x.bo.data()), n / 2);
+  });
+}
+void triad_once(Arrays& x, Executor& executor) {
+  in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) {
+    triad(x.c.e.data() + at, x.a.e.data() + at, x.b[0]->e.data() + at, n);
+  });
+}
+
 void loop_in_place(benchmark::State& state, bool plane_by_plane) {
-  measure(state, "in_place", true, 36, 1, 1, [&](Arrays& x, Executor& executor) {
-    in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) {
-      Masses& b = *x.b[0];
-      const auto word = [&](float* p) { return reinterpret_cast<Words*>(p) + at; };
-      Words* to[3] = {word(x.a.e.data()), word(x.a.o.data()), word(x.a.u.data())};
-      const Words* from[3] = {word(b.e.data()), word(b.o.data()), word(b.u.data())};
-      if (plane_by_plane) {
-        for (int p = 0; p < 3; ++p) add_plane(to[p], from[p], n);
-      } else {
-        add_in_bursts(to, from, 3, n / 64 * 64);
-      }
-    });
-  });
+  measure(state, {}, 36, 1, plane_by_plane ? add_planes : add_bursts);
 }
-
-void loop_unorm16(benchmark::State& state) {
-  measure(state, "unorm16", true, 12, 1, 1, [&](Arrays& x, Executor& executor) {
-    in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) {
-      const auto word = [&](std::uint16_t* p) { return reinterpret_cast<Words*>(p + at); };
-      add_plane(word(x.ae.data()), word(x.be.data()), n / 2);
-      add_plane(word(x.ao.data()), word(x.bo.data()), n / 2);
-    });
-  });
-}
-
+void loop_unorm16(benchmark::State& state) { measure(state, {}, 12, 1, add_unorm16); }
 /// STREAM: 12 bytes an element.
-void loop_triad(benchmark::State& state) {
-  measure(state, "out_of_place", true, 12, 1, 1, [&](Arrays& x, Executor& executor) {
-    in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) {
-      triad(x.c.e.data() + at, x.a.e.data() + at, x.b[0]->e.data() + at, n);
-    });
-  });
-}
+void loop_triad(benchmark::State& state) { measure(state, {}, 12, 1, triad_once); }
 void loop_copy(benchmark::State& state) {
-  measure(state, "copy", true, 8, 1, 1, [&](Arrays& x, Executor& executor) {
+  measure(state, {}, 8, 1, [](Arrays& x, Executor& executor) {
     in_blocks(executor, x.n, [&](std::size_t at, std::size_t n) { copy(x.c.e.data() + at, x.a.e.data() + at, n); });
   });
 }
 
 void in_place(benchmark::State& state, Rule rule) {
-  measure(state, "in_place", false, 36, 1, 1, [&](Arrays& x, Executor& executor) {
+  measure(state, {{add_bursts, add_planes}}, 36, 1, [rule](Arrays& x, Executor& executor) {
     combine(rule, x.a.view(), x.b[0]->view(), x.a.planes(), nullptr, x.n, Kernel::automatic, &executor);
   });
 }
 /// 36 bytes a cell against the 12 of a triad's element.
 void out_of_place(benchmark::State& state, Rule rule) {
-  measure(state, "out_of_place", false, 36, 1, 3, [&](Arrays& x, Executor& executor) {
+  measure(state, {{triad_once}, 3, true}, 36, 1, [rule](Arrays& x, Executor& executor) {
     combine(rule, x.a.view(), x.b[0]->view(), x.c.planes(), nullptr, x.n, Kernel::automatic, &executor);
   });
 }
 void unorm16_in_place(benchmark::State& state, Rule rule) {
-  measure(state, "unorm16", false, 12, 1, 1, [&](Arrays& x, Executor& executor) {
+  measure(state, {{add_unorm16}}, 12, 1, [rule](Arrays& x, Executor& executor) {
     combine(rule, Unorm16Planes<const std::uint16_t>{x.ae.data(), x.ao.data()}, {x.be.data(), x.bo.data()},
             {x.ae.data(), x.ao.data()}, nullptr, x.n, Kernel::automatic, &executor);
   });
 }
 
-/// Eight sources into the state: cells count once. `one_pass_share` of the passes is the gain.
-void eight_passes(benchmark::State& state, Rule rule) {
-  measure(state, std::string("sources_") + std::string(name(rule)), true, 8 * 36, kSources, 1,
-          [&](Arrays& x, Executor& executor) {
-            for (const auto& b : x.b)
-              combine(rule, x.a.view(), b->view(), x.a.planes(), nullptr, x.n, Kernel::automatic, &executor);
-          });
+/// Eight sources into the state: cells count once.
+Round passes(Rule rule) {
+  return [rule](Arrays& x, Executor& executor) {
+    for (const auto& b : x.b)
+      combine(rule, x.a.view(), b->view(), x.a.planes(), nullptr, x.n, Kernel::automatic, &executor);
+  };
 }
+void eight_passes(benchmark::State& state, Rule rule) { measure(state, {}, 8 * 36, kSources, passes(rule)); }
+/// `yardstick_share` of the passes is the gain.
 void one_pass(benchmark::State& state, Rule rule) {
-  measure(state, std::string("sources_") + std::string(name(rule)), false, (kSources + 2) * 12, kSources, 1,
-          [&](Arrays& x, Executor& executor) {
-            std::vector<Planes<const float>> all{x.a.view()};
-            for (const auto& b : x.b) all.push_back(b->view());
-            combine(rule, std::span<const Planes<const float>>(all), x.a.planes(), nullptr, x.n, Kernel::automatic,
-                    &executor);
-          });
+  measure(state, {{passes(rule)}, 1, true}, (kSources + 2) * 12, kSources, [rule](Arrays& x, Executor& executor) {
+    std::vector<Planes<const float>> all{x.a.view()};
+    for (const auto& b : x.b) all.push_back(b->view());
+    combine(rule, std::span<const Planes<const float>>(all), x.a.planes(), nullptr, x.n, Kernel::automatic, &executor);
+  });
 }
 
 constexpr std::int64_t kLarge[] = {16 << 20, 64 << 20}, kCached[] = {1 << 10, 16 << 10, 50'000, 1 << 20};

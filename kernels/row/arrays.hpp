@@ -38,6 +38,12 @@ struct FloatArrays {
     if (p.cc != nullptr) Lanes::store_flat(p.cc + i, c);
   }
   static EVIGRID_FN std::size_t cells_to_line(const Planes& p, std::size_t i) { return cells_to_border(p.ce, i); }
+  /// Asks for `count` cells of both operands from cell i on.
+  static EVIGRID_FN void fetch(const Planes& p, std::size_t i, std::size_t count) {
+    for (const float* plane : {p.ae, p.ao, p.au, p.be, p.bo, p.bu}) {
+      for (std::size_t j = 0; j < count; j += kLineBytes / sizeof(float)) __builtin_prefetch(plane + i + j);
+    }
+  }
 
   struct Pads {
     alignas(64) float in[6][Lanes::kLanes], out[5][Lanes::kLanes] = {};

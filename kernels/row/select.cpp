@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which tables this processor can run.
+// Which tables this processor can run, and what suits it.
 #include "hwy/targets.h"
+#include "kernels/row/fetch_ahead.hpp"
 #include "kernels/row/tables.hpp"
 
 namespace evigrid::kernels {
@@ -13,6 +14,15 @@ const KernelTable* find_table(std::string_view name) noexcept {
   if (name == "avx512") return avx512 ? &avx512_table() : nullptr;
   if (name == "auto") return avx512 ? &avx512_table() : avx2 ? &avx2_table() : &scalar_table();
   return nullptr;
+}
+
+bool fetches_ahead() noexcept {
+#if defined(__x86_64__) || defined(__i386__)
+  static const bool intel = __builtin_cpu_is("intel");
+  return intel;
+#else
+  return false;
+#endif
 }
 
 }  // namespace evigrid::kernels
