@@ -15,7 +15,7 @@ PLANE_BYTES = 8  # a float read and written
 FAMILIES = {"dense": ("#1f77b4", "o"), "cone": ("#d62728", "s"), "fan": ("#2ca02c", "^")}
 # (family, rows, how cells a second are told, bytes a cell, where the flop count stands). {0}, {1} … are groups.
 POINTS = [
-    ("dense", r"combine_in_place/(\w+)/(?:cells:)?(\d+)/(?:threads:)?(\d+)", "items", 36, "ops/dense/{0}"),
+    ("dense", r"in_place/(\w+)/(?:cells:)?(\d+)/(?:threads:)?(\d+)", "items", 36, "ops/dense/{0}"),
     ("cone", r"sonar/(\w+?)\d+/half([\d.]+)/(\w+)/avx512", "peers", 3 * PLANE_BYTES, "ops/cone/{2}"),
     ("fan", r"building/(\w+)_pcr5_avx512/(?:threads:)?(\d+)", "items", 4 * PLANE_BYTES, "ops/fan/pcr5"),
 ]
