@@ -91,6 +91,7 @@ void DeviceMap::take_back(const Pipeline& p, Plan& plan, const kernels::DeviceRe
     Plan& plan;
     const float* from;
     std::size_t bytes;
+    std::vector<std::uint64_t>& tiles_per_worker;
   };
   for (std::size_t first = 0; first < updated_.size(); first += kPiece) {
     const std::size_t n = std::min(kPiece, updated_.size() - first);
@@ -101,12 +102,13 @@ void DeviceMap::take_back(const Pipeline& p, Plan& plan, const kernels::DeviceRe
           std::string("the device was lost while the map's tiles came back, the map is not whole: ") + lost.what());
     }
     Piece piece{updated_.data() + first, plan, result.cells + first * p.store.tile_bytes() / sizeof(float),
-                p.store.tile_bytes()};
+                p.store.tile_bytes(), p.tiles_per_worker};
     p.executor.run(
         static_cast<std::int64_t>(n),
-        [](void* context, std::int64_t index, int) {
+        [](void* context, std::int64_t index, int worker) {
           const Piece& c = *static_cast<Piece*>(context);
           const auto i = static_cast<std::size_t>(index);
+          ++c.tiles_per_worker[static_cast<std::size_t>(worker)];
           std::memcpy(c.plan.tiles[c.updated[i]].tile->cells, c.from + i * c.bytes / sizeof(float), c.bytes);
         },
         &piece);
