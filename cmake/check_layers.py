@@ -16,7 +16,7 @@ THIRD = {
     "zlib": re.compile(r"^zlib\.h$"), "fmt": re.compile(r"^fmt/"), "zstd": re.compile(r"^zstd\.h$"),
     "cuda": re.compile(r"^cuda_runtime\.h$"),
     "yaml": re.compile(r"^yaml-cpp/"),
-    "octomap": re.compile(r"^octomap/"), "ros": re.compile(r"^(ros|rosbag|tf2|console_bridge|\w+_msgs)/"),
+    "octomap": re.compile(r"^octomap/"), "ros": re.compile(r"^(ros|roslz4|rosbag|tf2|console_bridge|\w+_msgs)/"),
     "tinyobj": re.compile(r"^tiny_obj_loader\.h$"),
 }
 # Room: folders it may include from (by include path prefix), third parties it may include.
@@ -29,7 +29,7 @@ ROOMS = {
     "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt", "png", "yaml", "tinyobj", "tbb"}),
     "scenes/include": (("evigrid/scenes/", "evigrid/raycast/"), set()),
     "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree", "eigen", "octomap"}),
-    "driver/ros_bag": (("bag.hpp", "frames.hpp"), {"ros", "eigen"}),
+    "driver/ros_bag": (("bag.hpp", "check.hpp", "frames.hpp"), {"ros", "eigen"}),
 }
 OTHERS = {"evigrid/raycast/": "raycast", "evigrid/scenes/": "scenes"}
 
