@@ -15,6 +15,7 @@ THIRD = {
     "cli": re.compile(r"^CLI/"), "json": re.compile(r"^nlohmann/"), "png": re.compile(r"^png\.h$"),
     "zlib": re.compile(r"^zlib\.h$"), "fmt": re.compile(r"^fmt/"), "zstd": re.compile(r"^zstd\.h$"),
     "cuda": re.compile(r"^cuda_runtime\.h$"),
+    "pybind11": re.compile(r"^pybind11/"),
     "yaml": re.compile(r"^yaml-cpp/"),
     "tinyobj": re.compile(r"^tiny_obj_loader\.h$"),
 }
@@ -27,6 +28,9 @@ ROOMS = {
     "raycast/include": (("evigrid/raycast/",), set()),
     "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt", "png", "yaml", "tinyobj", "tbb"}),
     "scenes/include": (("evigrid/scenes/", "evigrid/raycast/"), set()),
+    "capi": (("evigrid/", "@capi"), set()),
+    "capi/include": ((), set()),
+    "python": (("evigrid/", "@python"), {"pybind11"}),
     "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree", "eigen"}),
 }
 OTHERS = {"evigrid/raycast/": "raycast", "evigrid/scenes/": "scenes"}
