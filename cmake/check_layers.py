@@ -17,6 +17,7 @@ THIRD = {
     "cuda": re.compile(r"^cuda_runtime\.h$"),
     "pybind11": re.compile(r"^pybind11/"),
     "yaml": re.compile(r"^yaml-cpp/"),
+    "octomap": re.compile(r"^octomap/"), "ros": re.compile(r"^(ros|rosbag|tf2|console_bridge|\w+_msgs)/"),
     "tinyobj": re.compile(r"^tiny_obj_loader\.h$"),
 }
 # Room: folders it may include from (by include path prefix), third parties it may include.
@@ -31,14 +32,16 @@ ROOMS = {
     "capi": (("evigrid/", "@capi"), set()),
     "capi/include": ((), set()),
     "python": (("evigrid/", "@python"), {"pybind11"}),
-    "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree", "eigen"}),
+    "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree", "eigen", "octomap"}),
+    "driver/ros_bag": (("bag.hpp", "frames.hpp"), {"ros", "eigen"}),
 }
 OTHERS = {"evigrid/raycast/": "raycast", "evigrid/scenes/": "scenes"}
 
 
 def room_of(path):
     parts = path.relative_to(ROOT).parts
-    return parts[0], (f"{parts[0]}/include" if len(parts) > 1 and parts[1] == "include" else parts[0])
+    inner = "/".join(parts[:2])
+    return parts[0], inner if inner in ROOMS else parts[0]
 
 
 bad, seen = [], 0

@@ -16,6 +16,7 @@ namespace {
 struct Args {
   std::vector<std::string> logs;
   std::string format = "auto";
+  BagOptions bag;
   std::string scans;                 ///< empty: all
   std::vector<std::string> sensors;  ///< kinds or names; empty: all
   MappingOptions mapping;
@@ -43,7 +44,7 @@ void map_log(const Args& args) {
   const Plan plan = make_plan(args.mapping);
   OutDir out(args.mapping.out_dir);
   if (!args.mapping.json.empty() && args.mapping.json != "-") require_writable(args.mapping.json);
-  Log log = read_log(args.logs, args.format);
+  Log log = read_log(args.logs, args.format, args.bag);
   require_poses(log, args);
   if (!args.scans.empty()) keep_scans(log, args.scans);
   if (!args.sensors.empty()) keep_sensors(log, args.sensors);
@@ -65,6 +66,11 @@ void add_map(CLI::App& app) {
   command->add_option("--scans", args->scans, "map these alone: N, or A:B up to but not including B; from 0");
   command->add_option("--sensors", args->sensors, "map these kinds or names of sensors alone, e.g. sonar")
       ->delimiter(',');
+  command->add_option("--base-frame", args->bag.base_frame, "ROS bags: the robot's frame (REP 105)")
+      ->capture_default_str();
+  command->add_option("--fixed-frame", args->bag.fixed_frame,
+                      "ROS bags: the frame of the map (default: map where tf knows it, else odom)");
+  command->add_option("--topics", args->bag.topics, "ROS bags: map these sensors alone (default: all)")->delimiter(',');
   add_mapping_options(*command, args->mapping);
   CLI::Option* journal =
       command->add_option("--journal", args->journal.path,
@@ -81,6 +87,7 @@ void add_map(CLI::App& app) {
       "  evigrid map ring/ -o out --rule pcr5 --model li2014\n"
       "  evigrid map Garden.txt -o out --sensors sonar --max-range 2.5\n"
       "  evigrid map sensor_readings_24.data -o out --scans 120\n"
+      "  evigrid map drive.bag -o out --topics /scan --base-frame base_footprint\n"
       "  evigrid map intel.log.gz -o out --journal intel.journal      and, after a crash, the same with --resume\n"
       "  evigrid map intel.log.gz -o out --threads 2 --executor openmp --kernel avx2 --json -\n");
   command->callback([args] { map_log(*args); });
