@@ -17,7 +17,7 @@ THIRD = {
     "cuda": re.compile(r"^cuda_runtime\.h$"),
     "pybind11": re.compile(r"^pybind11/"),
     "yaml": re.compile(r"^yaml-cpp/"),
-    "octomap": re.compile(r"^octomap/"), "ros": re.compile(r"^(ros|rosbag|tf2|console_bridge|\w+_msgs)/"),
+    "octomap": re.compile(r"^octomap/"), "ros": re.compile(r"^(ros|roslz4|rosbag|tf2|console_bridge|\w+_msgs)/"),
     "tinyobj": re.compile(r"^tiny_obj_loader\.h$"),
 }
 # Room: folders it may include from (by include path prefix), third parties it may include.
@@ -33,7 +33,7 @@ ROOMS = {
     "capi/include": ((), set()),
     "python": (("evigrid/", "@python"), {"pybind11"}),
     "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree", "eigen", "octomap"}),
-    "driver/ros_bag": (("bag.hpp", "frames.hpp"), {"ros", "eigen"}),
+    "driver/ros_bag": (("bag.hpp", "check.hpp", "frames.hpp"), {"ros", "eigen"}),
 }
 OTHERS = {"evigrid/raycast/": "raycast", "evigrid/scenes/": "scenes"}
 

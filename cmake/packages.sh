@@ -8,6 +8,8 @@ EVIGRID_PACKAGES=(
 )
 EVIGRID_TEST_PACKAGES=(libgtest-dev libbenchmark-dev libgmp-dev pkg-config python3 python3-dev python3-numpy pybind11-dev)
 EVIGRID_BENCH_PACKAGES=(libbenchmark-dev python3 python3-matplotlib)
+# Formats of other worlds: found where installed, never asked for; the program names what is missing.
+EVIGRID_FORMAT_PACKAGES=(liboctomap-dev librosbag-storage-dev libtf2-dev libnav-msgs-dev libsensor-msgs-dev)
 EVIGRID_PEER_PACKAGES=(libmrpt-maps-dev liboctomap-dev)  # a gigabyte: only where asked for
 
 evigrid_install() {

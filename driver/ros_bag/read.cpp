@@ -11,6 +11,7 @@
 #include <new>
 #include <set>
 
+#include "check.hpp"
 #include "frames.hpp"
 
 namespace evigrid::ros_bag {
@@ -31,13 +32,16 @@ template <class T>
 boost::shared_ptr<T> decoded(const MessageInstance& message) {
   try {
     if (message.size() > kMostMessage) throw Broken{"too large"};
+    std::vector<std::uint8_t> bytes(message.size());
+    ros::serialization::OStream copy(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    message.write(copy);
+    if (!counts_fit(message.getDataType(), bytes.data(), bytes.size()))
+      throw Broken{"a count is larger than the message"};
     if (auto out = message.instantiate<T>()) return out;
   } catch (const ros::Exception& bad) {
     throw Broken{bad.what()};
-  } catch (const std::length_error& bad) {  // a count that is none
-    throw Broken{bad.what()};
   } catch (const std::bad_alloc&) {
-    throw Broken{"a count asks for more memory than there is"};
+    throw Broken{"asks for more memory than there is"};
   }
   throw Broken{"another definition of " + message.getDataType()};
 }
@@ -158,6 +162,7 @@ class Reader {
 Summary read(const std::string& file, const Frames& frames, const std::vector<std::string>& topics, Listener& to) {
   console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);  // what matters comes as an exception
   try {
+    check_structure(file);
     const rosbag::Bag bag(file, rosbag::bagmode::Read);
     return Reader(bag, frames, topics, to).read();
   } catch (const ros::Exception& bad) {  // rosbag's and roscpp's

@@ -10,8 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bag/bag.hpp"
 #include "commands.hpp"
 #include "evigrid/evigrid.hpp"
+#include "export/octomap_slab.hpp"
 #include "options.hpp"
 #include "out/out_dir.hpp"
 #include "region_option.hpp"
@@ -42,6 +44,7 @@ Json facts() {
   out["executors"] = {"serial", "tbb", "openmp", "spin"};
   out["threads"] = make_tbb_executor(0)->concurrency();
   out["hardware_threads"] = std::thread::hardware_concurrency();
+  out["optional_formats"] = {{"octomap", octomap_is_built()}, {"rosbag", bags_are_built()}};
   out["rules"] = rules;
   out["models"] = models;
   out["packages"] = {{"TBB", EVIGRID_TBB_VERSION},

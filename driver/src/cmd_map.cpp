@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bag/frame_options.hpp"
 #include "commands.hpp"
 #include "error.hpp"
 #include "log/readers.hpp"
@@ -66,11 +67,7 @@ void add_map(CLI::App& app) {
   command->add_option("--scans", args->scans, "map these alone: N, or A:B up to but not including B; from 0");
   command->add_option("--sensors", args->sensors, "map these kinds or names of sensors alone, e.g. sonar")
       ->delimiter(',');
-  command->add_option("--base-frame", args->bag.base_frame, "ROS bags: the robot's frame (REP 105)")
-      ->capture_default_str();
-  command->add_option("--fixed-frame", args->bag.fixed_frame,
-                      "ROS bags: the frame of the map (default: map where tf knows it, else odom)");
-  command->add_option("--topics", args->bag.topics, "ROS bags: map these sensors alone (default: all)")->delimiter(',');
+  add_bag_options(*command, args->bag);
   add_mapping_options(*command, args->mapping);
   CLI::Option* journal =
       command->add_option("--journal", args->journal.path,

@@ -13,6 +13,7 @@
 #include "log/readers.hpp"
 #include "program.hpp"
 #include "ros_bag/bag.hpp"
+#include "ros_bag/check.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -175,6 +176,58 @@ TEST(RosBag, WhatCannotBeUsedIsCountedByReason) {
   const std::map<std::string, std::uint64_t> wanted{
       {"no transform", 2}, {"tilted", 1}, {"bad geometry", 3}, {"wrong count", 1}};
   EXPECT_EQ(log.malformed, wanted);
+}
+
+TEST(RosBag, CompressedChunksAreTheSame) {
+  const TempDir dir;
+  std::vector<std::vector<float>> ranges;
+  for (const auto packed : {BagWriter::Packed::no, BagWriter::Packed::bz2, BagWriter::Packed::lz4}) {
+    BagWriter bag(dir.at("a.bag"), packed);
+    drive(bag, 30);
+    for (int i = 0; i < 50; ++i)
+      bag.laser(kT + 0.5 * i, "/scan", "laser", -1, 0.01F, std::vector<float>(200, 1 + 0.1F * static_cast<float>(i)));
+    bag.close();
+    const Log log = read_log({dir.at("a.bag")}, "auto");
+    EXPECT_EQ(log.scans.size(), 50U);
+    ranges.push_back(log.ranges_m);
+  }
+  EXPECT_EQ(ranges[0], ranges[1]);
+  EXPECT_EQ(ranges[0], ranges[2]);
+}
+
+TEST(RosBag, AFlippedByteIsAnErrorOrALog) {
+  const TempDir dir;
+  BagWriter bag(dir.at("a.bag"));
+  drive(bag, 2);
+  bag.laser(kT + 1, "/scan", "laser", -1, 0.5F, {1, 2});
+  bag.close();
+  const std::string whole = slurp(dir.at("a.bag"));
+  int errors = 0, tries = 0;
+  for (std::size_t at = 0; at < whole.size(); at += 37, ++tries) {
+    std::string bad = whole;
+    bad[at] = static_cast<char>(bad[at] ^ 0x80);
+    try {
+      (void)read_log({dir.write("bad.bag", bad)}, "bag");
+    } catch (const InputError&) {
+      ++errors;
+    }
+  }
+  EXPECT_GT(errors, 20);
+  EXPECT_LT(errors, tries);  // most bytes are padding and definitions
+}
+
+TEST(RosBag, CountsBeyondTheMessageAreSeen) {
+  const auto fits = [](const char* type, std::vector<std::uint32_t> words) {
+    return ros_bag::counts_fit(type, reinterpret_cast<const std::uint8_t*>(words.data()), 4 * words.size());
+  };
+  EXPECT_TRUE(fits("tf2_msgs/TFMessage", {0}));
+  EXPECT_FALSE(fits("tf2_msgs/TFMessage", {1'000'000'000}));
+  EXPECT_FALSE(fits("tf2_msgs/TFMessage", {}));
+  // Header without a frame, seven floats, counts of ranges and of intensities.
+  EXPECT_TRUE(fits("sensor_msgs/LaserScan", {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 2, 8, 9, 0}));
+  EXPECT_FALSE(fits("sensor_msgs/LaserScan", {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 4, 8, 9, 0}));
+  EXPECT_FALSE(fits("sensor_msgs/LaserScan", {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 2, 8, 9, 7}));
+  EXPECT_FALSE(fits("sensor_msgs/LaserScan", {0, 0, 0, 99, 1, 2, 3, 4, 5, 6, 7, 2, 8, 9, 0}));
 }
 
 TEST(RosBag, DamageIsAnError) {

@@ -35,7 +35,13 @@ struct BagWriter::Impl {
   rosbag::Bag bag;
 };
 
-BagWriter::BagWriter(const std::string& file) : impl_(new Impl) { impl_->bag.open(file, rosbag::bagmode::Write); }
+BagWriter::BagWriter(const std::string& file, Packed packed) : impl_(new Impl) {
+  impl_->bag.open(file, rosbag::bagmode::Write);
+  impl_->bag.setChunkThreshold(2000);  // several chunks
+  impl_->bag.setCompression(packed == Packed::no    ? rosbag::compression::Uncompressed
+                            : packed == Packed::bz2 ? rosbag::compression::BZ2
+                                                    : rosbag::compression::LZ4);
+}
 BagWriter::~BagWriter() = default;
 
 void BagWriter::transform(double t_s, const std::string& parent, const std::string& child, const std::vector<double>& v,

@@ -9,7 +9,8 @@ namespace evigrid::testing {
 
 class BagWriter {
  public:
-  explicit BagWriter(const std::string& file);
+  enum class Packed { no, bz2, lz4 };
+  explicit BagWriter(const std::string& file, Packed packed = Packed::no);
   ~BagWriter();
   /// A transform of child in parent: x, y, z, roll, pitch, yaw. `fixed`: on /tf_static.
   void transform(double t_s, const std::string& parent, const std::string& child, const std::vector<double>& xyzrpy,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sonars and lasers of a ROS bag as a log, and a map as a bag. Optional: built where Debian's librosbag-storage-dev,
-// libtf2-dev and the messages are installed (EVIGRID_ROSBAG); driver/ros_bag is all that knows them. Frames are REP 105's:
-// map (or, without one, odom) ─► base ─► sensor, from tf, tf_static and, where no tf moves the base, nav_msgs/Odometry.
-// Ranges are REP 117's, as the engine takes them: +inf nothing within range, −inf too close, NaN invalid.
+// libtf2-dev and the messages are installed (EVIGRID_ROSBAG); driver/ros_bag is all that knows them. Frames are REP
+// 105's: map (or, without one, odom) ─► base ─► sensor, from tf, tf_static and, where no tf moves the base,
+// nav_msgs/Odometry. Ranges are REP 117's, as the engine takes them: +inf nothing within range, −inf too close, NaN
+// invalid.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -60,7 +60,12 @@ void write_octomap(const Exported& what, const ExportOptions& o, std::ostream& o
       [&](std::size_t tiles, std::size_t of) { progress.show(tiles, of); });
   if (tree.size() == 0) throw InputError(what.source + ": no cell is decided either way, the octree would be empty");
   tree.updateInnerOccupancy();
-  tree.writeBinary(out);
+  tree.toMaxLikelihood();
+  tree.prune();
+  // As AbstractOccupancyOcTree::writeBinary, which also says "done." to the user.
+  out << "# Octomap OcTree binary file\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+      << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  tree.writeBinaryData(out);
 }
 
 }  // namespace evigrid::driver
