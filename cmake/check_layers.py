@@ -15,6 +15,7 @@ THIRD = {
     "cli": re.compile(r"^CLI/"), "json": re.compile(r"^nlohmann/"), "png": re.compile(r"^png\.h$"),
     "zlib": re.compile(r"^zlib\.h$"), "fmt": re.compile(r"^fmt/"), "zstd": re.compile(r"^zstd\.h$"),
     "cuda": re.compile(r"^cuda_runtime\.h$"),
+    "pybind11": re.compile(r"^pybind11/"),
     "yaml": re.compile(r"^yaml-cpp/"),
     "octomap": re.compile(r"^octomap/"), "ros": re.compile(r"^(ros|roslz4|rosbag|tf2|console_bridge|\w+_msgs)/"),
     "tinyobj": re.compile(r"^tiny_obj_loader\.h$"),
@@ -28,6 +29,9 @@ ROOMS = {
     "raycast/include": (("evigrid/raycast/",), set()),
     "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt", "png", "yaml", "tinyobj", "tbb"}),
     "scenes/include": (("evigrid/scenes/", "evigrid/raycast/"), set()),
+    "capi": (("evigrid/", "@capi"), set()),
+    "capi/include": ((), set()),
+    "python": (("evigrid/", "@python"), {"pybind11"}),
     "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree", "eigen", "octomap"}),
     "driver/ros_bag": (("bag.hpp", "check.hpp", "frames.hpp"), {"ros", "eigen"}),
 }

@@ -15,10 +15,11 @@
 #include <string_view>
 #include <vector>
 
+#include "evigrid/export.hpp"
 #include "evigrid/map.hpp"
 #include "evigrid/view.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 /// "FILE: what is wrong": not a map, truncated, checksum of tile n, a newer version, cannot be written …
 class MapFileError : public std::runtime_error {

@@ -8,9 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "evigrid/export.hpp"
 #include "evigrid/types.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 /// hughes1992 (Hughes & Murphy 1992). Distances are linear in (Rmax − d).
 struct Hughes1992 {
@@ -95,9 +96,9 @@ struct Sensor {
   /// the cell after the scan's independent readings; mass on empty ∩ occupied is given up before.
   Dependence dependence = Dependence::independent;
   double weight_exponent = 1;  ///< γ in (0, 1] of weighted: 1 is Dempster's rule within the scan, 1/n the mean of n
-  int beams = 1;              ///< number of ranges in one reading; > 1 only for a fan
-  double first_beam_rad = 0;  ///< bearing of beam 0 in S, counter-clockwise
-  double beam_step_rad = 0;   ///< bearing from one beam to the next
+  int beams = 1;               ///< number of ranges in one reading; > 1 only for a fan
+  double first_beam_rad = 0;   ///< bearing of beam 0 in S, counter-clockwise
+  double beam_step_rad = 0;    ///< bearing from one beam to the next
   Hughes1992 hughes{};
   Oriolo1997 oriolo{};
   Li2006 li2006{};
