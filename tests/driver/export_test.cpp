@@ -9,8 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "bag/bag.hpp"
 #include "evigrid/evigrid.hpp"
 #include "evigrid/scenes/plan.hpp"
+#include "export/octomap_slab.hpp"
 #include "program.hpp"
 #include "records.hpp"
 
@@ -285,6 +287,26 @@ TEST(Convert, ATurnedPlanIsTakenUnderTheCentresOfCells) {
   for (std::int64_t y = b.y; y < b.y + b.height; ++y)
     for (std::int64_t x = b.x; x < b.x + b.width; ++x) known += map.mass({x, y}) != Mass{};
   EXPECT_NEAR(static_cast<double>(known), 800, 20);
+}
+
+TEST(Export, AFormatThatIsNotBuiltNamesItsPackage) {
+  const TempDir dir;
+  const std::string out = mapped(dir);
+  const auto refused = [&](std::vector<std::string> args, const std::string& package) {
+    const auto before = dir.names();
+    const Ran ran = evigrid(args);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_TRUE(contains(ran.err, package)) << ran.err;
+    EXPECT_EQ(dir.names(), before);
+  };
+  const std::string bag = dir.write("a.bag", "#ROSBAG V2.0\n");
+  if (!octomap_is_built()) refused({"export", out, "-o", dir.at("x.bt")}, "liboctomap-dev");
+  if (!bags_are_built()) {
+    refused({"export", out, "-o", dir.at("x.bag")}, "librosbag-storage-dev");
+    refused({"map", bag, "-o", dir.at("x")}, "librosbag-storage-dev");
+    refused({"log", bag}, "librosbag-storage-dev");
+  }
+  if (octomap_is_built() && bags_are_built()) GTEST_SKIP() << "OctoMap and ROS bags are built";
 }
 
 TEST(Export, BadInputIsNamedAndLeavesNothing) {

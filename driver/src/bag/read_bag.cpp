@@ -101,7 +101,6 @@ class ToLog final : public ros_bag::Listener {
 }  // namespace
 
 void read_bag(const std::string& path, const BagOptions& options, Log& log) {
-  require_bags(path);
   ToLog to(path, log);
   try {
     const ros_bag::Summary summary = ros_bag::read(path, {options.base_frame, options.fixed_frame}, options.topics, to);

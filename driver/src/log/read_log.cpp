@@ -87,6 +87,7 @@ Log read_one_bag(const std::vector<std::string>& paths, const BagOptions& option
   if (paths.size() > 1) throw InputError(fmt::format("format {} takes one file, {} are named", kBag, paths.size()));
   std::error_code ignored;
   if (!fs::is_regular_file(paths.front(), ignored)) throw InputError(paths.front() + ": there is no such file");
+  require_bags(paths.front());
   Log log;
   log.format = kBag;
   read_bag(paths.front(), options, log);
