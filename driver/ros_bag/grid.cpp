@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bag.hpp"
+#include "check.hpp"
 
 namespace evigrid::ros_bag {
 namespace {
@@ -43,7 +44,9 @@ void write_grid(const std::string& file, const Grid& g) {
 
 Grid read_grid(const std::string& file, const std::string& topic) {
   try {
-    const rosbag::Bag bag(file, rosbag::bagmode::Read);
+    check_structure(file);
+    rosbag::Bag bag;
+    bag.open(file, rosbag::bagmode::Read);
     rosbag::View view(bag, rosbag::TopicQuery(topic));
     for (const rosbag::MessageInstance& message : view) {
       const auto grid = message.instantiate<nav_msgs::OccupancyGrid>();

@@ -163,7 +163,8 @@ Summary read(const std::string& file, const Frames& frames, const std::vector<st
   console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);  // what matters comes as an exception
   try {
     check_structure(file);
-    const rosbag::Bag bag(file, rosbag::bagmode::Read);
+    rosbag::Bag bag;  // opened afterwards: its constructor would lose what it read when it throws
+    bag.open(file, rosbag::bagmode::Read);
     return Reader(bag, frames, topics, to).read();
   } catch (const ros::Exception& bad) {  // rosbag's and roscpp's
     throw Error(bad.what());

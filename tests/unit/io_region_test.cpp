@@ -98,7 +98,7 @@ TEST(PartOfASavedMap, TheCapIsHeldAgainstThePart) {
   const std::size_t cap = 3 * 64 * 64 * 16;
   EXPECT_THROW((void)load(view(bytes), {.memory_cap_bytes = cap}), MapFileError);
   const CellRect b = load(view(bytes)).bounds();
-  const CellRect small{b.x + b.width / 2 & -64, b.y + b.height / 2 & -64, 64, 64};
+  const CellRect small{(b.x + b.width / 2) & -64, (b.y + b.height / 2) & -64, 64, 64};
   EXPECT_EQ(load(view(bytes), {.memory_cap_bytes = cap, .region = small}).tiles(), 1U);
   EXPECT_THROW((void)load(view(bytes), {.memory_cap_bytes = cap, .region = b}), MapFileError);
 }
