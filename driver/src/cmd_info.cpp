@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -97,8 +98,9 @@ Json map_facts(const std::string& path, const std::vector<double>& region_m) {
   if (info.params.decay_s > 0) out["decay_s"] = info.params.decay_s;
   out["size_cells"] = {box.width, box.height};
   out["origin_cells"] = {box.x, box.y};
-  out["extent_m"] = {{"x", {static_cast<double>(box.x) * c, static_cast<double>(box.x + box.width) * c}},
-                     {"y", {static_cast<double>(box.y) * c, static_cast<double>(box.y + box.height) * c}}};
+  const auto metres = [&](std::int64_t cell) { return std::round(static_cast<double>(cell) * c * 1e9) / 1e9; };
+  out["extent_m"] = {{"x", {metres(box.x), metres(box.x + box.width)}},
+                     {"y", {metres(box.y), metres(box.y + box.height)}}};
   out["layers"] = info.planes;
   out["tiles"] = info.tiles;
   out["memory_bytes"] = info.memory_bytes;

@@ -4,6 +4,22 @@
 #include "scan/footprint.hpp"
 
 namespace evigrid {
+namespace {
+
+/// Where the micro-tiles of a tile lie from its first cell, in cells: looked up, as turning small numbers into floats
+/// costs more than the rest of the loop.
+struct MicroPlaces {
+  float x[kernels::kMicrosPerTile]{}, y[kernels::kMicrosPerTile]{};
+  constexpr MicroPlaces() {
+    for (int m = 0; m < kernels::kMicrosPerTile; ++m) {
+      x[m] = static_cast<float>(4 * (m % kernels::kMicrosPerSide));
+      y[m] = static_cast<float>(4 * (m / kernels::kMicrosPerSide));
+    }
+  }
+};
+constexpr MicroPlaces kPlaces;
+
+}  // namespace
 
 ConeFootprint ConeFootprints::find(const kernels::KernelTable& table, const kernels::ConeReading& q) {
   constexpr int kBlock = 64, kCuts = kernels::ConeBands::kCuts;
@@ -64,10 +80,10 @@ BlockMask ConeList::add(const ConeFootprint& f, const ConeFootprints::Cuts* band
     float** const cells = zone.cells.data() + had;
     float *const xs = zone.x.data() + had, *const ys = zone.y.data() + had;
     for (std::size_t i = 0; i < add; ++i) {
-      const int m = micro[z][i];
-      cells[i] = tile.cells + static_cast<std::size_t>(m) * step;
-      xs[i] = x0 + static_cast<float>(4 * (m & (kSide - 1)));
-      ys[i] = y0 + static_cast<float>(4 * (m / kSide));
+      const std::size_t m = micro[z][i];
+      cells[i] = tile.cells + m * step;
+      xs[i] = x0 + kPlaces.x[m];
+      ys[i] = y0 + kPlaces.y[m];
     }
     count_[z] += n[z];
   }
