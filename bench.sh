@@ -27,7 +27,8 @@ python="${PYTHON:-/usr/bin/python3}"
 build=build-bench
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=OFF -DEVIGRID_BUILD_BENCH=ON "${launcher[@]}" >/dev/null
+cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=OFF -DEVIGRID_BUILD_BENCH=ON \
+  -DEVIGRID_BUILD_SHARED=OFF -DEVIGRID_BUILD_C=OFF -DEVIGRID_BUILD_PYTHON=OFF "${launcher[@]}" >/dev/null
 grep -q '^CMAKE_BUILD_TYPE:[A-Z]*=Release$' "$build/CMakeCache.txt" || { echo "bench.sh: $build is no Release build" >&2; exit 2; }
 cmake --build "$build"
 
@@ -36,6 +37,9 @@ repetitions=3 min_time=0.05
 # Rows of the short mode; an empty entry leaves a binary out of it.
 declare -A short_rows=(
   [bench_plan]='generated'
+  [bench_astar]='open|rooms'
+  [bench_dense]='(loop_.*|.*/(dempster|pcr5|yager|conjunctive))/cells:(1024|16777216)/'
+  [bench_latency]='hot|idle_2ms'
   [bench_sonar_peers]='half15/.*avx512(/iter|$)|half7.5/.*avx512/iter|check'
   [bench_laser_peers]='intel/.*(mrpt|mrpt_widening|octomap)(/thin)?/iter|building.*(mrpt|octomap)(/thin)?/iter'
 )

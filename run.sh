@@ -6,7 +6,8 @@ cd "$(dirname "$0")"
 source cmake/packages.sh
 evigrid_install "${EVIGRID_PACKAGES[@]}"
 out="${1:-out/room}"
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=OFF -DEVIGRID_BUILD_BENCH=OFF >/dev/null
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=OFF -DEVIGRID_BUILD_BENCH=OFF \
+  -DEVIGRID_BUILD_SHARED=OFF -DEVIGRID_BUILD_C=OFF -DEVIGRID_BUILD_PYTHON=OFF >/dev/null
 cmake --build build
 mkdir -p "$(dirname "$out")"
 build/evigrid run -o "$out"

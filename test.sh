@@ -9,6 +9,8 @@ cuda=()  # compiled where nvcc 12 or later is, for one architecture; it runs whe
 if PATH="$PATH:/usr/local/cuda/bin" nvcc --version 2>/dev/null | grep -qE 'release (1[2-9]|[2-9][0-9])\.'; then
   cuda=(-DEVIGRID_CUDA=ON -DEVIGRID_CUDA_ARCHITECTURES=90)
 fi
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=ON -DEVIGRID_BUILD_BENCH=ON "${cuda[@]}" >/dev/null
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=ON -DEVIGRID_BUILD_BENCH=ON \
+  -DEVIGRID_BUILD_SHARED=ON -DEVIGRID_BUILD_C=ON -DEVIGRID_BUILD_PYTHON=ON \
+  -DPython3_EXECUTABLE=/usr/bin/python3 "${cuda[@]}" >/dev/null
 cmake --build build
 ctest --test-dir build --output-on-failure --parallel "$(nproc)" "$@"

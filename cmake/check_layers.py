@@ -15,7 +15,9 @@ THIRD = {
     "cli": re.compile(r"^CLI/"), "json": re.compile(r"^nlohmann/"), "png": re.compile(r"^png\.h$"),
     "zlib": re.compile(r"^zlib\.h$"), "fmt": re.compile(r"^fmt/"), "zstd": re.compile(r"^zstd\.h$"),
     "cuda": re.compile(r"^cuda_runtime\.h$"),
+    "pybind11": re.compile(r"^pybind11/"),
     "yaml": re.compile(r"^yaml-cpp/"),
+    "octomap": re.compile(r"^octomap/"), "ros": re.compile(r"^(ros|roslz4|rosbag|tf2|console_bridge|\w+_msgs)/"),
     "tinyobj": re.compile(r"^tiny_obj_loader\.h$"),
 }
 # Room: folders it may include from (by include path prefix), third parties it may include.
@@ -27,14 +29,19 @@ ROOMS = {
     "raycast/include": (("evigrid/raycast/",), set()),
     "scenes": (("evigrid/scenes/", "evigrid/raycast/", "@scenes"), {"toml", "fmt", "png", "yaml", "tinyobj", "tbb"}),
     "scenes/include": (("evigrid/scenes/", "evigrid/raycast/"), set()),
-    "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree", "eigen"}),
+    "capi": (("evigrid/", "@capi"), set()),
+    "capi/include": ((), set()),
+    "python": (("evigrid/", "@python"), {"pybind11"}),
+    "driver": (("evigrid/", "@driver"), {"cli", "json", "png", "zlib", "fmt", "tbb", "toml", "embree", "eigen", "octomap"}),
+    "driver/ros_bag": (("bag.hpp", "check.hpp", "frames.hpp"), {"ros", "eigen"}),
 }
 OTHERS = {"evigrid/raycast/": "raycast", "evigrid/scenes/": "scenes"}
 
 
 def room_of(path):
     parts = path.relative_to(ROOT).parts
-    return parts[0], (f"{parts[0]}/include" if len(parts) > 1 and parts[1] == "include" else parts[0])
+    inner = "/".join(parts[:2])
+    return parts[0], inner if inner in ROOMS else parts[0]
 
 
 bad, seen = [], 0

@@ -3,8 +3,14 @@
 # but the kernels: they read no files, and their tables take a quarter of an hour each to compile with all checks.
 find_package(Threads REQUIRED)
 
+# evigrid_target(target [17]): 17 only where other people's headers ask for it.
 function(evigrid_target target)
-  target_compile_features(${target} PUBLIC cxx_std_20)
+  if("${ARGN}" STREQUAL "17")
+    target_compile_features(${target} PRIVATE cxx_std_17)
+    set_target_properties(${target} PROPERTIES CXX_STANDARD 17)
+  else()
+    target_compile_features(${target} PUBLIC cxx_std_20)
+  endif()
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
     $<$<BOOL:${EVIGRID_WERROR}>:-Werror>)

@@ -6,8 +6,10 @@ EVIGRID_PACKAGES=(
   libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libfmt-dev libpng-dev zlib1g-dev
   libyaml-cpp-dev libtinyobjloader-dev libzstd-dev
 )
-EVIGRID_TEST_PACKAGES=(libgtest-dev libbenchmark-dev libgmp-dev python3)
+EVIGRID_TEST_PACKAGES=(libgtest-dev libbenchmark-dev libgmp-dev pkg-config python3 python3-dev python3-numpy pybind11-dev)
 EVIGRID_BENCH_PACKAGES=(libbenchmark-dev python3 python3-matplotlib)
+# Formats of other worlds: found where installed, never asked for; the program names what is missing.
+EVIGRID_FORMAT_PACKAGES=(liboctomap-dev librosbag-storage-dev libtf2-dev libnav-msgs-dev libsensor-msgs-dev)
 EVIGRID_PEER_PACKAGES=(libmrpt-maps-dev liboctomap-dev)  # a gigabyte: only where asked for
 
 evigrid_install() {

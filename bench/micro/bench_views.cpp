@@ -157,6 +157,48 @@ void load_file(benchmark::State& state) {
 }
 BENCHMARK(load_file)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
+/// A square of so many tiles out of the middle of 33 × 33: its own bytes in memory count.
+void load_region(benchmark::State& state) {
+  World w(32);
+  const Scratch from;
+  save(w.map, from.file);
+  const std::shared_ptr<Executor> executor = make_serial_executor();
+  const std::int64_t side = 64 * state.range(0);
+  std::uint64_t bytes_read = 0;
+  std::size_t memory = 0;
+  for (auto _ : state) {
+    const Map part = load(from.file, {.executor = executor,
+                                      .region = CellRect{1024 - side / 2, 1024 - side / 2, side, side},
+                                      .bytes_read = &bytes_read});
+    memory = part.memory_bytes();
+  }
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * memory));
+  state.counters["read/file"] =
+      static_cast<double>(bytes_read) / static_cast<double>(std::filesystem::file_size(from.file));
+}
+BENCHMARK(load_region)->Arg(2)->Arg(8)->Arg(16)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// From the page cache, as load_file mostly has them.
+void read_the_saved_bytes(benchmark::State& state) {
+  World w(32);
+  const Scratch from;
+  save(w.map, from.file);
+  const auto n = static_cast<std::size_t>(std::filesystem::file_size(from.file));
+  std::vector<char> to(n);
+  for (auto _ : state) {
+    const int d = ::open(from.file.c_str(), O_RDONLY | O_CLOEXEC);
+    for (std::size_t at = 0; at < n;) {
+      const ssize_t got = ::read(d, to.data() + at, n - at);
+      if (got <= 0) break;
+      at += static_cast<std::size_t>(got);
+    }
+    ::close(d);
+    benchmark::ClobberMemory();
+  }
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * n));
+}
+BENCHMARK(read_the_saved_bytes)->UseRealTime()->Unit(benchmark::kMillisecond);
+
 void copy_the_same_bytes(benchmark::State& state) {
   const std::size_t n = World(32).map.memory_bytes();
   std::vector<char> from(n, 1), to(n, 2);

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A result (results.py) as one page of Markdown."""
+import re
+
 import results
 
 CONTEXT = [  # key, words
@@ -84,6 +86,11 @@ def plain_rows(rows):
     return out
 
 
+def by_name(row):
+    """Numbers in names by their size: repetitions are interleaved at random, so the order of the rows means nothing."""
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", row["name"])]
+
+
 def page(result, name, pictures):
     """The whole page; `pictures` are (caption, file)."""
     lines = [f"# Benchmarks: {name}", "", "Written by `./bench.sh`; what each figure means: `docs/benchmarks.md`. Absolute",
@@ -93,7 +100,7 @@ def page(result, name, pictures):
         lines += ["", f"![{caption}]({file})", "", f"*{caption}*"]
     binaries = list(dict.fromkeys(r["binary"] for r in result["rows"]))
     for binary in binaries:
-        rows = [r for r in result["rows"] if r["binary"] == binary]
+        rows = sorted((r for r in result["rows"] if r["binary"] == binary), key=by_name)
         peers = [r for r in rows if "1t_Mcell/s" in r["values"]]
         plain = [r for r in rows if "1t_Mcell/s" not in r["values"]]
         lines += ["", f"## {binary}", ""]

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "log/sensor_line.hpp"
 #include "options.hpp"
 #include "out/out_dir.hpp"
 #include "world_input.hpp"
@@ -16,7 +17,7 @@ struct Args {
   WorldOptions input;
   std::string out;
   int threads = 0;
-  bool truth = false;
+  bool truth = false, sensors = false;
 };
 
 /// Columns that not every scene has come last, so that the first ones keep their places.
@@ -35,6 +36,8 @@ void cast(const Args& args) {
   const bool lasers = !input.scene.lasers.empty(), odometry = input.scene.odometry.used;
   fmt::memory_buffer csv;
   auto to = std::back_inserter(csv);
+  for (std::size_t i = 0; args.sensors && i < log.sensors.size(); ++i)
+    fmt::format_to(to, "{}\n", sensor_line(i, log.sensors[i]));
   fmt::format_to(to, "{}", header(args.truth, lasers, odometry));
   for (std::size_t step = 0; step < log.scans.size(); ++step) {
     const LogScan& scan = log.scans[step];
@@ -63,6 +66,8 @@ void add_cast(CLI::App& app) {
   add_world_options(*command, args->input);
   command->add_option("-o,--out", args->out, "write to this file instead of standard output");
   command->add_flag("--truth", args->truth, "add a column with the range without noise, second bounce and cross-talk");
+  command->add_flag("--sensors", args->sensors,
+                    "begin with a comment line a sensor: with them `evigrid map` maps the file");
   command->add_option("--threads", args->threads, "for casting; 0: as many as the machine has; same readings")
       ->capture_default_str();
   command->footer(
@@ -74,7 +79,8 @@ void add_cast(CLI::App& app) {
       "Examples:\n"
       "  evigrid cast room.toml > readings.csv\n"
       "  evigrid cast asharif2001 --threads 2 -o readings.csv\n"
-      "  evigrid cast --truth -o readings.csv\n");
+      "  evigrid cast --truth -o readings.csv\n"
+      "  evigrid cast room.toml --sensors -o readings.csv      and evigrid map readings.csv -o out\n");
   command->callback([args] { cast(*args); });
 }
 

@@ -3,6 +3,7 @@
 // scene is cast once per robot, so that all rules see the same readings; its truth gives the scores.
 #include <utility>
 
+#include "bag/frame_options.hpp"
 #include "commands.hpp"
 #include "compare/compare.hpp"
 
@@ -37,6 +38,7 @@ void add_compare(CLI::App& app) {
   command->remove_option(command->get_option("--robot"));
   command->add_option("INPUT", o.inputs,
                       "a recorded log, or a scene (a .toml file, or embedded: " + embedded_scene_names() + ")");
+  add_bag_options(*command, o.bag);
   add_mapping_options(*command, o.mapping);
   command->remove_option(command->get_option("--rule"));
   command->remove_option(command->get_option("--model"));

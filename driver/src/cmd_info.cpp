@@ -10,10 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bag/bag.hpp"
 #include "commands.hpp"
 #include "evigrid/evigrid.hpp"
+#include "export/octomap_slab.hpp"
 #include "options.hpp"
 #include "out/out_dir.hpp"
+#include "region_option.hpp"
 #include "saved_map.hpp"
 
 namespace evigrid::driver {
@@ -41,6 +44,7 @@ Json facts() {
   out["executors"] = {"serial", "tbb", "openmp", "spin"};
   out["threads"] = make_tbb_executor(0)->concurrency();
   out["hardware_threads"] = std::thread::hardware_concurrency();
+  out["optional_formats"] = {{"octomap", octomap_is_built()}, {"rosbag", bags_are_built()}};
   out["rules"] = rules;
   out["models"] = models;
   out["packages"] = {{"TBB", EVIGRID_TBB_VERSION},
@@ -77,8 +81,8 @@ Json sensor_facts(const Sensor& s) {
   return out;
 }
 
-Json map_facts(const std::string& path) {
-  const SavedMap saved = open_saved_map(path);
+Json map_facts(const std::string& path, const std::vector<double>& region_m) {
+  const SavedMap saved = open_saved_map(path, nullptr, region_m);
   const MapFileInfo& info = saved.info;
   const CellRect box = saved.map.bounds();
   const double c = info.params.cell_m;
@@ -102,7 +106,14 @@ Json map_facts(const std::string& path) {
   out["kernel"] = name(info.params.kernel);
   out["memory_cap_bytes"] = info.params.memory_cap_bytes;
   out["last_stamp_ns"] = info.last_stamp_ns ? Json(*info.last_stamp_ns) : Json();
-  out["map_hash"] = fmt::format("{:016x}", saved.map.hash());
+  out["map_hash"] = fmt::format("{:016x}", region_m.empty() ? saved.map.hash() : info.hash);
+  if (!region_m.empty()) {
+    const CellRect r = cells_of(region_m, c);
+    out["region"] = {{"cells", {r.x, r.y, r.width, r.height}},
+                     {"tiles", saved.map.tiles()},
+                     {"hash", fmt::format("{:016x}", saved.map.hash())},
+                     {"bytes_read", saved.bytes_read}};
+  }
   out["sensors"] = sensors;
   return out;
 }
@@ -141,17 +152,22 @@ std::string text_of(const Json& value) {
 void add_info(CLI::App& app) {
   struct Args {
     std::string map, json;
+    std::vector<double> region_m;
   };
   auto args = std::make_shared<Args>();
   CLI::App* command =
       app.add_subcommand("info", "version, build, kernels, threads, packages; or what a saved map holds");
   command->add_option("MAP", args->map, "map file (.evigrid), or the folder that map or run wrote");
   command->add_option("--json", args->json, "write the facts to this file as JSON; - for standard output");
+  add_region_option(*command, args->region_m);
   command->footer(
-      "Of a map: parameters, rule, extent, layers, sensors, hash. It is read whole and every checksum is proved.\n\n"
-      "Examples:\n  evigrid info\n  evigrid info out\n  evigrid info out/map.evigrid --json -\n");
+      "Of a map: parameters, rule, extent, layers, sensors, hash. It is read whole and every checksum is proved. With\n"
+      "--region: size, origin and extent are those of what was seen in that part, which is read alone; region has its "
+      "own\ncells, tiles and hash; map_hash is what the file says of the whole.\n\n"
+      "Examples:\n  evigrid info\n  evigrid info out\n  evigrid info out/map.evigrid --json -\n"
+      "  evigrid info out --region=-2,-2,6,4\n");
   command->callback([args] {
-    const Json all = args->map.empty() ? facts() : map_facts(args->map);
+    const Json all = args->map.empty() ? facts() : map_facts(args->map, args->region_m);
     const std::string bytes = all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // paths hold any bytes
     if (args->json == "-") {
       std::cout << bytes;

@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "bag/frame_options.hpp"
 #include "commands.hpp"
 #include "log/readers.hpp"
 #include "log/summary.hpp"
@@ -16,13 +17,14 @@ namespace {
 struct Args {
   std::vector<std::string> logs;
   std::string format = "auto", json;
+  BagOptions bag;
 };
 
 void show_log(const Args& args) {
   using Json = nlohmann::ordered_json;
   const bool to_stdout = args.json == "-";
   if (!args.json.empty() && !to_stdout) require_writable(args.json);
-  Json summary = summarise(read_log(args.logs, args.format));
+  Json summary = summarise(read_log(args.logs, args.format, args.bag));
   summary["input"] = args.logs;
   const std::string bytes = summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   if (!args.json.empty() && !to_stdout) write_file(args.json, bytes);
@@ -37,6 +39,7 @@ void add_log(CLI::App& app) {
   command->add_option("FILE", args->logs, "a log: its file, files or folder, plain or .gz")->required();
   command->add_option("--format", args->format, fmt::format("{}", fmt::join(log_formats(), ", ")))
       ->capture_default_str();
+  add_bag_options(*command, args->bag);
   command->add_option("--json", args->json, "also write the summary to this file; - for standard output instead");
   command->footer(
       "Formats (found by content; --format names one):\n" + describe_formats() +

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bag/frame_options.hpp"
 #include "commands.hpp"
 #include "error.hpp"
 #include "log/readers.hpp"
@@ -16,6 +17,7 @@ namespace {
 struct Args {
   std::vector<std::string> logs;
   std::string format = "auto";
+  BagOptions bag;
   std::string scans;                 ///< empty: all
   std::vector<std::string> sensors;  ///< kinds or names; empty: all
   MappingOptions mapping;
@@ -43,7 +45,7 @@ void map_log(const Args& args) {
   const Plan plan = make_plan(args.mapping);
   OutDir out(args.mapping.out_dir);
   if (!args.mapping.json.empty() && args.mapping.json != "-") require_writable(args.mapping.json);
-  Log log = read_log(args.logs, args.format);
+  Log log = read_log(args.logs, args.format, args.bag);
   require_poses(log, args);
   if (!args.scans.empty()) keep_scans(log, args.scans);
   if (!args.sensors.empty()) keep_sensors(log, args.sensors);
@@ -65,6 +67,7 @@ void add_map(CLI::App& app) {
   command->add_option("--scans", args->scans, "map these alone: N, or A:B up to but not including B; from 0");
   command->add_option("--sensors", args->sensors, "map these kinds or names of sensors alone, e.g. sonar")
       ->delimiter(',');
+  add_bag_options(*command, args->bag);
   add_mapping_options(*command, args->mapping);
   CLI::Option* journal =
       command->add_option("--journal", args->journal.path,
@@ -81,6 +84,8 @@ void add_map(CLI::App& app) {
       "  evigrid map ring/ -o out --rule pcr5 --model li2014\n"
       "  evigrid map Garden.txt -o out --sensors sonar --max-range 2.5\n"
       "  evigrid map sensor_readings_24.data -o out --scans 120\n"
+      "  evigrid map drive.bag -o out --topics /scan --base-frame base_footprint\n"
+      "  evigrid map ring/ -o out --revision revision.json            what `evigrid train` learned of these sonars\n"
       "  evigrid map intel.log.gz -o out --journal intel.journal      and, after a crash, the same with --resume\n"
       "  evigrid map intel.log.gz -o out --threads 2 --executor openmp --kernel avx2 --json -\n");
   command->callback([args] { map_log(*args); });

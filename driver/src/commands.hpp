@@ -18,6 +18,8 @@ void add_info(CLI::App& app);
 void add_show(CLI::App& app);
 void add_diff(CLI::App& app);
 void add_merge(CLI::App& app);
+void add_export(CLI::App& app);
+void add_convert(CLI::App& app);
 void add_paper(CLI::App& app);
 void add_cycle(CLI::App& app);
 

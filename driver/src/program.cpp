@@ -44,6 +44,8 @@ int run_program(int argc, const char* const* argv) {
     add_show(app);
     add_diff(app);
     add_merge(app);
+    add_export(app);
+    add_convert(app);
     add_paper(app);
     add_cycle(app);
     add_info(app);

@@ -6,18 +6,24 @@
 #include <filesystem>
 
 #include "error.hpp"
+#include "region_option.hpp"
 
 namespace evigrid::driver {
 
-SavedMap open_saved_map(const std::string& path, std::shared_ptr<Executor> executor) {
+SavedMap open_saved_map(const std::string& path, std::shared_ptr<Executor> executor,
+                        const std::vector<double>& region_m) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   const fs::path file = fs::is_directory(path, ignored) ? fs::path(path) / kMapFile : fs::path(path);
   try {
     MapFileInfo info = inspect(file);
     // The file may be anyone's: what it says of memory is not believed.
-    return {file.string(), std::move(info),
-            load(file, {.executor = std::move(executor), .memory_cap_bytes = MapParams{}.memory_cap_bytes})};
+    LoadOptions options{.executor = std::move(executor), .memory_cap_bytes = MapParams{}.memory_cap_bytes};
+    if (!region_m.empty()) options.region = cells_of(region_m, info.params.cell_m);
+    std::uint64_t bytes_read = 0;
+    options.bytes_read = &bytes_read;
+    Map map = load(file, options);
+    return {file.string(), std::move(info), std::move(map), bytes_read};
   } catch (const MapFileError& bad) {
     throw InputError(bad.what());
   }

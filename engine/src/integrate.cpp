@@ -170,8 +170,7 @@ class RegionTask {
     if (sensor.revision) s_.revised.revise(sensor, b_.p.params, blank, count);
     DependentReadings& said = together(sensor);
     for (int z = 0; z < kernels::kConeZones; ++z) {
-      for (int i = 0; i < args.zone[z].count; ++i)
-        said.add(sensor, args.zone[z].cells[i], heard.zone[z].cells[i]);
+      for (int i = 0; i < args.zone[z].count; ++i) said.add(sensor, args.zone[z].cells[i], heard.zone[z].cells[i]);
     }
     if (sensor.dependence == Dependence::independent && !said.empty()) meet(said, f.stamp_ns, sensor.decay_s);
   }

@@ -9,6 +9,7 @@
 #include "evigrid/combine.hpp"
 #include "evigrid/view.hpp"
 #include "grid/readout.hpp"
+#include "grid/rect.hpp"
 #include "grid/tile_catalog.hpp"
 #include "grid/view_state.hpp"
 #include "integrate.hpp"
@@ -132,14 +133,19 @@ void Map::clear() {
   if (impl_->device) impl_->device->forget();
   impl_->changes.clear();
 }
-void Map::clear(CellRect rect) { forget(impl_->grid(), rect); }
+void Map::clear(CellRect rect) {
+  require_near("clear", rect);
+  forget(impl_->grid(), rect);
+}
 void Map::set_window(CellRect window) {
+  require_near("set_window", window);
   impl_->admission.window.reset();
   if (window.empty()) return;
   impl_->admission.window = tiles_of(window);
   drop_outside(impl_->grid(), *impl_->admission.window);
 }
 void Map::protect(CellRect area) {
+  require_near("protect", area);
   if (area.empty()) return;
   freeze(impl_->grid(), area);
   impl_->admission.guarded.push_back(area);

@@ -27,6 +27,23 @@ std::uint64_t MapView::hash() const { return hash_cells(*state_); }
 const MapParams& MapView::params() const noexcept { return state_->facts().params; }
 std::span<const Sensor> MapView::sensors() const noexcept { return *state_->facts().sensors; }
 std::size_t MapView::tiles() const noexcept { return state_->size(); }
+std::vector<std::string_view> MapView::plane_names() const {
+  std::vector<std::string_view> names;
+  for (const Plane& plane : state_->layout().planes) names.push_back(plane.name);
+  return names;
+}
+std::vector<TilePlanes> MapView::tile_planes() const {
+  static_assert(TilePlanes::kSide == kernels::kTileSide && TilePlanes::kBlock == kernels::kMicroSide);
+  std::vector<TilePlanes> tiles;
+  tiles.reserve(state_->size());
+  for (const TileRef& tile : state_->in_order()) {
+    tiles.push_back(
+        {{tile.at.x * TilePlanes::kSide, tile.at.y * TilePlanes::kSide, TilePlanes::kSide, TilePlanes::kSide},
+         tile.cells,
+         state_->planes()});
+  }
+  return tiles;
+}
 std::uint64_t MapView::version() const noexcept { return state_->facts().losses.version; }
 Changes MapView::changes(std::uint64_t since) const { return state_->changes(since); }
 

@@ -6,6 +6,11 @@
 
 namespace evigrid::kernels {
 
+#ifdef EVIGRID_NO_SIMD  // EVIGRID_SIMD=OFF, or another family of processors
+const KernelTable* find_table(std::string_view name) noexcept {
+  return name == "scalar" || name == "auto" ? &scalar_table() : nullptr;
+}
+#else
 const KernelTable* find_table(std::string_view name) noexcept {
   static const auto supported = hwy::SupportedTargets();  // asks the processor: 20 µs in a virtual machine
   const bool avx2 = (supported & HWY_AVX2) != 0, avx512 = (supported & HWY_AVX3) != 0;
@@ -15,6 +20,7 @@ const KernelTable* find_table(std::string_view name) noexcept {
   if (name == "auto") return avx512 ? &avx512_table() : avx2 ? &avx2_table() : &scalar_table();
   return nullptr;
 }
+#endif
 
 bool fetches_ahead() noexcept {
 #if defined(__x86_64__) || defined(__i386__)

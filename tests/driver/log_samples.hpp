@@ -105,6 +105,15 @@ inline std::vector<FormatSample> format_samples() {
                  ',',
                  8});
   for (int i = 0; i < 3; ++i) all.back().rows.push_back(fmt::format("{},{}.5,1.0,0.1,1,1,3,2,1.01,0.99", i, i));
+  all.push_back({"cast",
+                 {},
+                 "c.csv",
+                 "# sensor 0 kind=sonar model=li2014 x_m=0.2 aperture_rad=0.3\n"
+                 "step,stamp_ns,x_m,y_m,yaw_rad,sensor,range_m",
+                 {},
+                 ',',
+                 6});
+  for (int i = 0; i < 3; ++i) all.back().rows.push_back(fmt::format("{},{}000000000,1,{},0.5,0,1.5", i, i, i));
   return all;
 }
 

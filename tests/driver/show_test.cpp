@@ -102,10 +102,10 @@ TEST(Show, BadRequestsAreNamed) {
   };
   refused({"--layer", "nothing"}, "--layer: 'nothing'");
   refused({"--surface"}, "name a file with -o");
-  refused({"--rect", "2,2,1,1"}, "--rect");
-  refused({"--rect", "0,0,nan,1"}, "--rect");
-  refused({"--rect", "0,0,1e300,1"}, "--rect");
-  refused({"--rect", "-1e6,-1e6,1e6,1e6", "-o", dir.at("x.png")}, "x.png (--rect shows a part) refused");
+  refused({"--rect", "2,2,1,1"}, "--region");
+  refused({"--rect", "0,0,nan,1"}, "--region");
+  refused({"--rect", "0,0,1e300,1"}, "--region");
+  refused({"--rect", "-1e6,-1e6,1e6,1e6", "-o", dir.at("x.png")}, "x.png (--region shows a part) refused");
   refused({"--scale", "20000", "-o", dir.at("x.png")}, "x.png refused");
   refused({"-o", dir.at("no/x.png")}, "no/x.png");
   EXPECT_FALSE(dir.names().contains("x.png"));

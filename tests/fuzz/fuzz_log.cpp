@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first byte names the format, from 128 on it is found out; a line "====" starts the next file of a log that has
-// several. What can be read is also summed up.
+// The first byte modulo 16 counts the formats, beyond them, and from 128 on, it is found out; a line "====" starts the
+// next file of a log that has several. What can be read is also summed up.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace evigrid::driver;
   if (size == 0) return 0;
   const std::vector<std::string>& formats = log_formats();
-  const std::string& format = formats[data[0] >= 128 ? 0 : 1 + data[0] % (formats.size() - 1)];  // 0 is auto
+  const std::size_t of_lines = formats.size() - 2, chosen = data[0] % 16;  // not auto, the first, and not bag, the last
+  const std::string& format = formats[data[0] >= 128 || chosen >= of_lines ? 0 : 1 + chosen];
   std::string_view rest(reinterpret_cast<const char*>(data) + 1, size - 1);
   constexpr std::string_view kNext = "====\n";
   std::vector<std::string_view> files;

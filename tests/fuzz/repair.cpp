@@ -2,6 +2,7 @@
 #include "repair.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace evigrid::fuzz {
 namespace {
@@ -63,6 +64,35 @@ void repair_map_file(std::span<std::byte> bytes) {
   put_little(bytes, tail + 16, 8, bytes.size());
   put_little(bytes, tail + 24, 4, crc32(bytes.subspan(directory, tail - directory)));
   put_little(bytes, tail + 28, 4, crc32(bytes.subspan(tail, 28)));
+}
+
+void repair_journal(std::span<std::byte> bytes) {
+  constexpr std::size_t kHead = 24, kRecord = 20;
+  if (bytes.size() < kHead) return;
+  const std::size_t text = std::min<std::size_t>(little(bytes, 12, 4), bytes.size() - kHead);
+  put_little(bytes, 12, 4, text);
+  put_little(bytes, 16, 4, crc32(bytes.subspan(kHead, text)));
+  put_little(bytes, 20, 4, crc32(bytes.first(20)));
+  for (std::size_t at = kHead + text; bytes.size() - at >= kRecord;) {
+    const std::size_t payload = std::min<std::size_t>(little(bytes, at, 4), bytes.size() - at - kRecord);
+    put_little(bytes, at, 4, payload);
+    std::array<std::byte, kRecord> covered{};
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), 16, covered.begin());
+    put_little(covered, 16, 4, crc32(bytes.subspan(at + kRecord, payload)));
+    put_little(bytes, at + 16, 4, crc32(covered));
+    at += kRecord + payload;
+  }
+}
+
+void repair_scan_log(std::span<std::byte> bytes) {
+  constexpr std::size_t kHead = 16, kFixed = 48, kTail = 16;
+  if (bytes.size() < kHead + kTail) return;
+  const std::size_t room = bytes.size() - kHead - kTail, map = std::min<std::size_t>(little(bytes, 12, 4), room);
+  const std::size_t record = kFixed + 4 * static_cast<std::size_t>(little(bytes, 8, 4)), end = bytes.size() - kTail;
+  put_little(bytes, 12, 4, map);
+  put_little(bytes, end, 8, (room - map) / record);
+  put_little(bytes, end + 8, 4, crc32(bytes.first(end + 8)));
+  put_little(bytes, end + 12, 4, 0);
 }
 
 }  // namespace evigrid::fuzz

@@ -14,4 +14,10 @@ void repair_png(std::span<std::byte> bytes);
 /// Checksums, offsets and the file's size in a saved map (docs/map_file.md), as far as its parts can be followed.
 void repair_map_file(std::span<std::byte> bytes);
 
+/// Checksums of a journal's head and records, as far as records can be followed (docs/life_of_a_map.md).
+void repair_journal(std::span<std::byte> bytes);
+
+/// Count of scans and checksum of a fleet's scan log (docs/cycle.md).
+void repair_scan_log(std::span<std::byte> bytes);
+
 }  // namespace evigrid::fuzz

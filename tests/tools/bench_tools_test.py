@@ -17,7 +17,7 @@ import ab  # noqa: E402
 import results  # noqa: E402
 import table  # noqa: E402
 
-DENSE = "combine_in_place/pcr5/16777216/1"
+DENSE = "in_place/pcr5/cells:16777216/threads:1"
 
 
 class Results(unittest.TestCase):

@@ -45,6 +45,17 @@ void expect_cells(const Map& got, const CellRect& rect, Wanted&& wanted) {
 
 const CellRect kAll{-150, -150, 400, 400};
 
+/// What std::invalid_argument says; empty when nothing is thrown.
+template <class F>
+std::string message(F&& act) {
+  try {
+    act();
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return {};
+}
+
 TEST(Life, ForgettingARectangleLeavesTheRestAndGivesMemoryBack) {
   const auto d = testing::drive(Model::li2014, 20, 3);
   const Map whole = [&] {
@@ -242,19 +253,11 @@ TEST(Life, APriorGridAndAFootprint) {
 
 TEST(Life, WhatCannotBeWrittenIsNamedAndChangesNothing) {
   Map map({.cell_m = 0.1, .memory_cap_bytes = 4 * kTileBytes}, make_serial_executor());
-  const auto message = [&](auto&& act) {
-    try {
-      act();
-    } catch (const std::invalid_argument& e) {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
   const std::vector<Mass> bad{{}, {0.5f, 0.6f, 0.1f}}, paradox{{0.5f, 0.2f, 0.2f, 0.1f}}, nan{{NAN, 0, 1}}, one{{}};
   EXPECT_NE(message([&] { map.write({5, 6, 2, 1}, bad, 2); }).find("cell (6, 6) does not add up"), std::string::npos);
   EXPECT_NE(message([&] { map.write({0, 0, 1, 1}, paradox, 1); }).find("empty ∩ occupied"), std::string::npos);
   EXPECT_NE(message([&] { map.write({0, 0, 1, 1}, nan, 1); }).find("outside [0, 1]"), std::string::npos);
-  EXPECT_NE(message([&] { map.write({0, 0, 2, 1}, one, 2); }).find("fewer values"), std::string::npos);
+  EXPECT_NE(message([&] { map.write({0, 0, 2, 1}, one, 2); }).find("smaller than the rectangle"), std::string::npos);
   const std::vector<std::int8_t> grid{101};
   EXPECT_NE(message([&] { map.write({0, 0, 1, 1}, grid, 1, 1); }).find("occupancy 101"), std::string::npos);
   EXPECT_NE(message([&] {
@@ -289,6 +292,33 @@ TEST(Life, TwoToTheFortyCellsAreThereAndCostNothing) {
   EXPECT_FALSE(map.mass(here) == Mass{});
   map.set_window({b.x, b.y, 200, 200});
   EXPECT_LT(map.bounds().width, 500);
+}
+
+TEST(Life, RectanglesWhoseSidesOverflowAreRefused) {
+  Map map;
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  std::vector<float> out(16);
+  std::vector<Mass> masses(16);
+  for (const CellRect far : {CellRect{kMost - 2, 0, 4, 4}, CellRect{0, -kMost, 4, 4}, CellRect{0, 0, kMost, 4},
+                             CellRect{-kMost, -kMost, kMost, kMost}}) {
+    const auto refused = [&](auto&& call) {
+      EXPECT_NE(message(call).find("beyond 2^60 cells"), std::string::npos) << far.x << " " << far.width;
+    };
+    refused([&] { map.render(Layer::betp, far, out, 4); });
+    refused([&] { map.clear(far); });
+    refused([&] { map.set_window(far); });
+    refused([&] { map.protect(far); });
+    refused([&] { map.write(far, masses, 4); });
+  }
+  // As many rows as the product of height and stride overflows with.
+  const CellRect tall{0, 0, 4, std::int64_t{1} << 60};
+  EXPECT_NE(message([&] { map.render(Layer::betp, tall, out, std::int64_t{1} << 40); }).find("smaller"),
+            std::string::npos);
+  const CellRect everything{-(std::int64_t{1} << 60), -(std::int64_t{1} << 60), std::int64_t{1} << 61,
+                            std::int64_t{1} << 61};
+  map.set_window(everything);
+  map.protect(everything);
+  map.clear(everything);
 }
 
 }  // namespace

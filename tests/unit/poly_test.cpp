@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exponential and the logarithm of the states, over the floats of their domain: every float with
-// EVIGRID_EVERY_FLOAT=1, else one in 61.
+// The polynomials over the floats of their domain: every float with EVIGRID_EVERY_FLOAT=1, else one in 61 (the angle
+// alone takes minutes then). 2^y is in tests/oracle/model_error_test.cpp, beside the masses it makes.
 #define EVIGRID_LAMBDA
 #include "kernels/cell/lane_scalar.hpp"
 // After the target.
@@ -54,6 +54,37 @@ TEST(Polynomials, LogOnePlus) {
   EXPECT_LE(relative, 1.7e-7);
   EXPECT_LE(parts, 5e-8);
   EXPECT_LT(largest_small, 0.5);
+}
+
+/// The mass that the exponent makes, 2^(−l²): where the exponent is large its error does not count.
+TEST(Polynomials, LogarithmOfThePowerOfLi2014) {
+  const double scale = std::sqrt(80 / std::log(2.0));
+  double mass = 0;
+  const auto look = [&](float t) {
+    const double got = scalar::scaled_log(t), want = scale * std::log(static_cast<double>(t) + 1.1);
+    mass = std::max(mass, std::fabs(std::exp2(-got * got) - std::exp2(-want * want)));
+  };
+  each_float(0.516f, look);
+  each_float(0.463f, [&](float t) { look(-t); });
+  look(0);
+  std::printf("scaled logarithm: largest error of the mass %.3g\n", mass);
+  EXPECT_LE(mass, 5e-7);
+}
+
+/// Every quotient of a direction's coordinates, in each of the eight octants.
+TEST(Polynomials, CoarseAngle) {
+  double most = 0;
+  each_float(1.0f, [&](float z) {
+    for (int octant = 0; octant < 8; ++octant) {
+      float x = (octant & 1) != 0 ? z : 1.0f, y = (octant & 1) != 0 ? 1.0f : z;
+      if ((octant & 2) != 0) x = -x;
+      if ((octant & 4) != 0) y = -y;
+      most = std::max(
+          most, std::fabs(scalar::coarse_angle(x, y) - std::atan2(static_cast<double>(y), static_cast<double>(x))));
+    }
+  });
+  std::printf("coarse angle: largest error %.3g rad\n", most);
+  EXPECT_LE(most, 5.1e-7);
 }
 
 }  // namespace

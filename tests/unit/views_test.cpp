@@ -224,5 +224,43 @@ TEST(Views, RandomLives) {
   }
 }
 
+TEST(Views, ShowTheirTilesWhereTheyLie) {
+  const auto d = testing::drive(Model::li2014, 12, 5);
+  for (const Rule rule : {Rule::pcr5, Rule::conjunctive}) {
+    Map map = empty_map(*d, {.cell_m = 0.1, .rule = rule, .keep_con = true});
+    map.integrate(d->scans);
+    const MapView view = map.view();
+    const auto names = view.plane_names();
+    const auto plane = [&](std::string_view name) {
+      const auto at = std::find(names.begin(), names.end(), name);
+      EXPECT_NE(at, names.end()) << name;
+      return static_cast<int>(at - names.begin());
+    };
+    const int e = plane("e"), o = plane("o"), u = plane("u"), conflict = plane("conflict"), con = plane("con");
+    const auto tiles = view.tile_planes();
+    ASSERT_EQ(tiles.size(), map.tiles());
+    const float* const before = tiles.front().data;
+    map.integrate(d->scans.front());  // the writer goes on in a copy
+    EXPECT_EQ(view.tile_planes().front().data, before);
+    std::size_t seen = 0;
+    for (const TilePlanes& tile : tiles) {
+      ASSERT_EQ(tile.planes, static_cast<int>(names.size()));
+      for (std::int64_t y = 0; y < TilePlanes::kSide; ++y) {
+        for (std::int64_t x = 0; x < TilePlanes::kSide; ++x) {
+          const CellIndex cell{tile.rect.x + x, tile.rect.y + y};
+          const Mass m = view.mass(cell);
+          ASSERT_EQ(tile.at(e, x, y), m.e);
+          ASSERT_EQ(tile.at(o, x, y), m.o);
+          ASSERT_EQ(tile.at(u, x, y), m.u);
+          ASSERT_EQ(tile.at(conflict, x, y), view.conflict(cell));
+          ASSERT_EQ(tile.at(con, x, y), view.con(cell));
+          seen += m == Mass{} ? 0 : 1;
+        }
+      }
+    }
+    EXPECT_GT(seen, 1000u);
+  }
+}
+
 }  // namespace
 }  // namespace evigrid

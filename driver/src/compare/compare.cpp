@@ -43,7 +43,7 @@ std::vector<Subject> read_subjects(const CompareOptions& o) {
   if (!o.inputs.empty() && !is_scene(o.inputs.front())) {
     if (!o.robots.empty()) throw InputError("--robots: a recorded log has its own robot");
     if (!o.world.world.empty()) throw InputError("--world: cannot be given beside a log");
-    out.push_back({"", read_log(o.inputs, "auto"), std::nullopt});
+    out.push_back({"", read_log(o.inputs, "auto", o.bag), std::nullopt});
     return out;
   }
   if (o.inputs.size() > 1) throw InputError("one scene at a time");

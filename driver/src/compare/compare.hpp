@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "log/bag_options.hpp"
 #include "options.hpp"
 #include "world_input.hpp"
 
 namespace evigrid::driver {
 
 struct CompareOptions {
+  BagOptions bag;                   ///< of a ROS bag among the inputs
   std::vector<std::string> inputs;  ///< log files, or one scene; none: `world`, or the default scene
   WorldOptions world;
   std::vector<std::string> rules, models;

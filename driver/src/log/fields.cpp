@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kShown = 24;         // characters of a bad field that a message repeats
 constexpr std::size_t kMostSensors = 256;  // geometries of one log: a robot has a few, a broken file any number
-constexpr double kMostSeconds = 4.5e9;  // of two the difference in nanoseconds fits 63 bits
+constexpr double kMostSeconds = 4.5e9;     // of two the difference in nanoseconds fits 63 bits
 
 }  // namespace
 

@@ -5,8 +5,8 @@
 namespace evigrid::driver {
 
 std::span<const Format* const> all_formats() {
-  static constexpr const Format* kAll[] = {&kCarmen,      &kRing8,    &kWean,  &kLego,
-                                           &kBigWheelBot, &kRoomba12, &kUci24, &kEnmt482};
+  static constexpr const Format* kAll[] = {&kCarmen,   &kRing8, &kWean,    &kLego, &kBigWheelBot,
+                                           &kRoomba12, &kUci24, &kEnmt482, &kCast};
   return kAll;
 }
 

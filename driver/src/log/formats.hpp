@@ -30,7 +30,7 @@ struct Format {
   void (*read)(std::span<const Source>, Log&);  ///< gets at least one source and at most most_files
 };
 
-extern const Format kCarmen, kRing8, kWean, kLego, kBigWheelBot, kRoomba12, kUci24, kEnmt482;
+extern const Format kCarmen, kRing8, kWean, kLego, kBigWheelBot, kRoomba12, kUci24, kEnmt482, kCast;
 
 std::span<const Format* const> all_formats();
 

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
+#include "bag/bag.hpp"
 #include "error.hpp"
 #include "log/formats.hpp"
 #include "log/line_reader.hpp"
@@ -55,11 +57,40 @@ const Format& format_of_folder(const fs::path& folder) {
                   folder.string()));
 }
 
+// No table of lines: neither looked for among them, nor read from memory.
+constexpr const char* kBag = "bag";
+
+bool looks_like_bag(const std::string& path) {
+  constexpr std::string_view kMagic = "#ROSBAG V";
+  char first[kMagic.size()]{};
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return false;
+  std::ifstream(path, std::ios::binary).read(first, sizeof first);
+  return std::string_view(first, sizeof first) == kMagic;
+}
+
 const Format& format_named(const std::string& name) {
   for (const Format* format : all_formats()) {
     if (name == format->name) return *format;
   }
   throw InputError(fmt::format("--format: '{}' is unknown; known: {}", name, fmt::join(log_formats(), ", ")));
+}
+
+Log usable(Log log, const std::string& names) {
+  if (!log.scans.empty()) return log;
+  throw InputError(fmt::format("no usable record in {}: read as {}, {} kinds of other records, {} malformed{}", names,
+                               log.format, log.skipped.size(), log.malformed_total(),
+                               log.warnings.empty() ? "" : "; first: " + log.warnings.front()));
+}
+
+Log read_one_bag(const std::vector<std::string>& paths, const BagOptions& options) {
+  if (paths.size() > 1) throw InputError(fmt::format("format {} takes one file, {} are named", kBag, paths.size()));
+  std::error_code ignored;
+  if (!fs::is_regular_file(paths.front(), ignored)) throw InputError(paths.front() + ": there is no such file");
+  Log log;
+  log.format = kBag;
+  read_bag(paths.front(), options, log);
+  return usable(std::move(log), paths.front());
 }
 
 Log read(const Format& format, std::span<const Source> sources) {
@@ -70,12 +101,9 @@ Log read(const Format& format, std::span<const Source> sources) {
   Log log;
   log.format = format.name;
   format.read(sources, log);
-  if (!log.scans.empty()) return log;
   std::string names;
   for (const Source& source : sources) names += (names.empty() ? "" : ", ") + source.name;
-  throw InputError(fmt::format("no usable record in {}: read as {}, {} kinds of other records, {} malformed{}", names,
-                               log.format, log.skipped.size(), log.malformed_total(),
-                               log.warnings.empty() ? "" : "; first: " + log.warnings.front()));
+  return usable(std::move(log), names);
 }
 
 }  // namespace
@@ -84,6 +112,7 @@ const std::vector<std::string>& log_formats() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> out{"auto"};
     for (const Format* format : all_formats()) out.emplace_back(format->name);
+    out.emplace_back(kBag);
     return out;
   }();
   return names;
@@ -92,12 +121,14 @@ const std::vector<std::string>& log_formats() {
 std::string describe_formats() {
   std::string out;
   for (const Format* format : all_formats()) out += fmt::format("  {:<12}{}\n", format->name, format->what);
-  return out;
+  return out +
+         fmt::format("  {:<12}{}\n", kBag, "ROS bag: sensor_msgs/LaserScan and Range, with tf or nav_msgs/Odometry");
 }
 
-Log read_log(const std::vector<std::string>& paths, const std::string& name) {
+Log read_log(const std::vector<std::string>& paths, const std::string& name, const BagOptions& bag) {
   if (paths.empty()) throw InputError("no log file named");
   const bool look = name == "auto";
+  if (name == kBag || (look && looks_like_bag(paths.front()))) return read_one_bag(paths, bag);
   const Format& format = !look                             ? format_named(name)
                          : fs::is_directory(paths.front()) ? format_of_folder(paths.front())
                                                            : format_of_lines(Source{paths.front()});
@@ -113,6 +144,7 @@ Log read_log_bytes(const std::string& name, std::span<const std::string_view> fi
   for (const std::string_view bytes : files) {
     sources.push_back({fmt::format("(bytes {})", sources.size() + 1), bytes});
   }
+  if (name == kBag) throw InputError("format bag is read from files alone");
   return read(name == "auto" ? format_of_lines(sources.front()) : format_named(name), sources);
 }
 

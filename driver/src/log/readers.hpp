@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "log/bag_options.hpp"
 #include "log/log.hpp"
 
 namespace evigrid::driver {
@@ -18,7 +19,7 @@ std::string describe_formats();
 
 /// Reads one or more paths of a format ("auto" looks). Throws InputError naming the file for anything unreadable, and
 /// when no record of it can be used.
-Log read_log(const std::vector<std::string>& paths, const std::string& format);
+Log read_log(const std::vector<std::string>& paths, const std::string& format, const BagOptions& bag = {});
 
 /// The same from memory: plain text, one span for each file of the log (ring8: poses, then measurements).
 Log read_log_bytes(const std::string& format, std::span<const std::string_view> files);

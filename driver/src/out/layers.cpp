@@ -29,11 +29,11 @@ constexpr double kPlaneBytes = 4 * sizeof(float);  // of one cell; c, Con and th
 
 constexpr std::string_view kModeNames[] = {"trinary", "scale", "raw"};  // in the order of PgmMode
 
-std::uint8_t pixel(const Layers& l, std::size_t i, PgmMode mode) {
+std::uint8_t pixel(const Layers& l, std::size_t i, PgmMode mode, const PgmThresholds& limits) {
   const double betp = value_of(Layer::betp, l.mass(i));
   switch (mode) {
     case PgmMode::trinary:
-      return betp > kOccupiedThreshold ? 0 : betp < kFreeThreshold ? 254 : 205;
+      return betp > limits.occupied ? 0 : betp < limits.free ? 254 : 205;
     case PgmMode::scale:
       return static_cast<std::uint8_t>(std::lround(255 * (1 - betp)));
     case PgmMode::raw:
@@ -88,31 +88,32 @@ std::string npy_head(const Layers& layers) {
   return npy_head("<f4", fmt::format("({}, {}, {})", layers.count(), layers.rect.height, layers.rect.width));
 }
 
-PgmMode parse_pgm_mode(const std::string& name) {
+PgmMode parse_pgm_mode(const std::string& name, const char* option) {
   for (std::size_t i = 0; i < std::size(kModeNames); ++i) {
     if (name == kModeNames[i]) return static_cast<PgmMode>(i);
   }
-  throw InputError(fmt::format("--pgm-mode: '{}' is unknown; known: trinary, scale, raw", name));
+  throw InputError(fmt::format("{}: '{}' is unknown; known: trinary, scale, raw", option, name));
 }
 
-std::string pgm(const Layers& layers, PgmMode mode) {
+std::string pgm(const Layers& layers, PgmMode mode, const PgmThresholds& limits) {
   std::string out =
       fmt::format("P5\n# {} m per cell\n{} {}\n255\n", layers.cell_m, layers.rect.width, layers.rect.height);
   for (std::int64_t y = layers.rect.height - 1; y >= 0; --y) {
     for (std::int64_t x = 0; x < layers.rect.width; ++x)
-      out += static_cast<char>(pixel(layers, static_cast<std::size_t>(y * layers.rect.width + x), mode));
+      out += static_cast<char>(pixel(layers, static_cast<std::size_t>(y * layers.rect.width + x), mode, limits));
   }
   return out;
 }
 
-std::string map_yaml(const Layers& layers, const std::string& image, PgmMode mode) {
+std::string map_yaml(const Layers& layers, const std::string& image, PgmMode mode, const PgmThresholds& limits) {
+  const PgmThresholds said = mode == PgmMode::trinary ? PgmThresholds{} : limits;
   return fmt::format(
       "image: {}\nmode: {}\nresolution: {}\norigin: [{:.10g}, {:.10g}, 0]\nnegate: 0\noccupied_thresh: "
       "{}\nfree_thresh: "
       "{}\n",
       image, kModeNames[static_cast<std::size_t>(mode)], layers.cell_m,
       static_cast<double>(layers.rect.x) * layers.cell_m, static_cast<double>(layers.rect.y) * layers.cell_m,
-      kOccupiedThreshold, kFreeThreshold);
+      said.occupied, said.free);
 }
 
 }  // namespace evigrid::driver

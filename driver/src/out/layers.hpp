@@ -50,11 +50,18 @@ std::string npy_head(const Layers& layers);
 /// BetP, white 0, black 1; between the thresholds the loader makes 1 … 99 of it, and a PGM has no way to say unknown
 /// (never seen is 1/2). raw: the byte is the occupancy, 0 … 100 = BetP in per cent, 255 never seen.
 enum class PgmMode { trinary, scale, raw };
-/// Throws InputError naming --pgm-mode.
-PgmMode parse_pgm_mode(const std::string& name);
-std::string pgm(const Layers& layers, PgmMode mode = PgmMode::trinary);
-std::string map_yaml(const Layers& layers, const std::string& image, PgmMode mode = PgmMode::trinary);
-
+/// Throws InputError naming the option.
+PgmMode parse_pgm_mode(const std::string& name, const char* option = "--pgm-mode");
 inline constexpr double kOccupiedThreshold = 0.65, kFreeThreshold = 0.196;  ///< map_server's usual ones
+
+/// What BetP must be above, and below.
+struct PgmThresholds {
+  double occupied = kOccupiedThreshold, free = kFreeThreshold;
+};
+std::string pgm(const Layers& layers, PgmMode mode = PgmMode::trinary, const PgmThresholds& = {});
+/// In the mode trinary the pixels are decided already: the yaml then has the usual thresholds, by which a reader takes
+/// 205 for unknown.
+std::string map_yaml(const Layers& layers, const std::string& image, PgmMode mode = PgmMode::trinary,
+                     const PgmThresholds& = {});
 
 }  // namespace evigrid::driver

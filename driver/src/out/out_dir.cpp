@@ -125,6 +125,11 @@ void OutDir::write_by(const std::string& name, const std::function<void(std::ost
   if (!out) fail(target, "the disk may be full");
 }
 
+void OutDir::write_at(const std::string& name, const std::function<void(const fs::path&)>& writer) {
+  stage(path_ / name, {}, {});
+  writer(staged_.back().first);
+}
+
 void OutDir::write_outside(const std::string& path, std::string_view bytes) {
   const fs::path target = followed(fs::absolute(path));
   if (is_special(target)) {  // nothing to be renamed: written when all else is in place

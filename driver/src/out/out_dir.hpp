@@ -28,6 +28,9 @@ class OutDir {
   /// The same, by something that writes into a stream piece by piece.
   void write_by(const std::string& name, const std::function<void(std::ostream&)>& writer);
 
+  /// The same, by something that opens the temporary file by its path.
+  void write_at(const std::string& name, const std::function<void(const std::filesystem::path&)>& writer);
+
   /// Also takes a file outside the folder (--json FILE) into the same commit.
   void write_outside(const std::string& path, std::string_view bytes);
 
@@ -41,7 +44,7 @@ class OutDir {
   std::filesystem::path path_;
   std::vector<std::filesystem::path> made_;                                      // folders, outermost first
   std::vector<std::pair<std::filesystem::path, std::filesystem::path>> staged_;  // temporary, target
-  std::vector<std::pair<std::filesystem::path, std::string>> special_;  // devices and pipes, and what they get
+  std::vector<std::pair<std::filesystem::path, std::string>> special_;           // devices and pipes, and what they get
 };
 
 /// One file, written beside and renamed; throws InputError. For commands whose only output is a file.

@@ -16,6 +16,7 @@ PaperResult run_li2014(const PaperOptions& o) {
   add_heading(out, o);
   add_trap(out, o);
   add_tables(out, o);
+  add_revision(out, o);
   Page whole = page();
   whole.paragraph(
       "A Pioneer with 16 sonars in a field of 4.84 x 3.10 m, cells of 1 cm, a cycle of 100 ms: perception, "

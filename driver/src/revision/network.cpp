@@ -71,8 +71,8 @@ void apply_revision(const std::vector<Revision>& all, const std::string& path, s
     throw InputError(fmt::format("--revision: {} holds no sensor {}", path, index));
   const Revision& r = own == all.end() ? all.front() : *own;
   if (r.model != name(sensor.model)) {
-    throw InputError(fmt::format("--revision: {} revises {} for sensor {}, which has the model {}", path, r.model, index,
-                                 name(sensor.model)));
+    throw InputError(fmt::format("--revision: {} revises {} for sensor {}, which has the model {}", path, r.model,
+                                 index, name(sensor.model)));
   }
   sensor.revision = std::make_shared<const RevisionNetwork>(r.network);
 }

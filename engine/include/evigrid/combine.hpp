@@ -10,9 +10,10 @@
 #include <string_view>
 
 #include "evigrid/executor.hpp"
+#include "evigrid/export.hpp"
 #include "evigrid/types.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 template <class T>
 struct Planes {

@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace evigrid {
+#include "evigrid/export.hpp"
+
+namespace EVIGRID_API evigrid {
 
 class Executor {
  public:

@@ -10,9 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "evigrid/export.hpp"
 #include "evigrid/types.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 /// A set of parts of the frame, one bit each; 0 is the empty set.
 using Subset = unsigned;

@@ -15,10 +15,11 @@
 #include <string_view>
 #include <vector>
 
+#include "evigrid/export.hpp"
 #include "evigrid/map.hpp"
 #include "evigrid/view.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 /// "FILE: what is wrong": not a map, truncated, checksum of tile n, a newer version, cannot be written …
 class MapFileError : public std::runtime_error {
@@ -47,6 +48,11 @@ struct LoadOptions {
   std::optional<Kernel> kernel{};        ///< else the saved one, or the widest where that cannot run
   /// Checked before anything is allocated, and then the map's cap; else the saved one. Give it for files of strangers.
   std::optional<std::size_t> memory_cap_bytes{};
+  /// Only these cells: the map has no others, as if all around them had been cleared. The tiles that meet the region
+  /// are read and proved by their checksums, the rest of the file is not; the hash of the whole cannot be. The cap is
+  /// held against those tiles alone.
+  std::optional<CellRect> region{};
+  std::uint64_t* bytes_read = nullptr;  ///< where given, gets how many bytes of the file were read
 };
 
 /// Written beside, synchronised with the disk, renamed: `path` never holds half a map. Runs on the map's executor.

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "evigrid/combine.hpp"
+#include "evigrid/export.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 inline constexpr int kMostJointSources = 8;
 

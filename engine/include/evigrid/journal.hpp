@@ -10,11 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "evigrid/export.hpp"
 #include "evigrid/io.hpp"
 #include "evigrid/map.hpp"
 #include "evigrid/scan.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 /// Names a scan in a journal and in a RevisableMap; 0 is none.
 using ScanId = std::uint64_t;
@@ -91,7 +92,7 @@ class Journal {
   [[nodiscard]] std::uint64_t bytes() const noexcept;  ///< of the file
 
  private:
-  struct Impl;
+  struct EVIGRID_LOCAL Impl;
   explicit Journal(std::unique_ptr<Impl>);
   std::unique_ptr<Impl> impl_;
 };

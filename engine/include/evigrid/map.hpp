@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "evigrid/executor.hpp"
+#include "evigrid/export.hpp"
 #include "evigrid/readout.hpp"
 #include "evigrid/scan.hpp"
 #include "evigrid/sensor.hpp"
 #include "evigrid/types.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 /// How a reading's masses become the likelihoods that the rule bayes multiplies, by the share of m(unknown) in each:
 /// betp a half (pignistic probability), plp all of it (plausibility; then bayes is the PlP of Dempster's rule).
@@ -75,7 +76,7 @@ struct Changes {
 };
 
 class MapView;
-struct MapAccess;  // of the library itself: saving and loading
+struct EVIGRID_LOCAL MapAccess;  // of the library itself: saving and loading
 
 class Map {
  public:
@@ -176,7 +177,7 @@ class Map {
 
  private:
   friend struct MapAccess;
-  struct Impl;
+  struct EVIGRID_LOCAL Impl;
   std::unique_ptr<Impl> impl_;
 };
 

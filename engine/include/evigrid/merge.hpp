@@ -4,10 +4,11 @@
 #pragma once
 #include <cstdint>
 
+#include "evigrid/export.hpp"
 #include "evigrid/map.hpp"
 #include "evigrid/view.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 struct MergeOptions {
   Pose2 T_into_from{};     ///< takes coordinates of `from` to those of `into`

@@ -8,9 +8,10 @@
 #include <span>
 #include <string_view>
 
+#include "evigrid/export.hpp"
 #include "evigrid/types.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 enum class Layer : std::uint8_t {
   betp,               ///< pignistic probability of occupied

@@ -11,12 +11,13 @@
 #include <span>
 #include <vector>
 
+#include "evigrid/export.hpp"
 #include "evigrid/io.hpp"
 #include "evigrid/journal.hpp"
 #include "evigrid/map.hpp"
 #include "evigrid/view.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 struct RevisableOptions {
   /// A scan at most this much older than the newest is put in its place by its stamp (equal stamps: as they came): the
@@ -77,7 +78,7 @@ class RevisableMap {
   [[nodiscard]] std::size_t bytes_of_scans() const noexcept;
 
  private:
-  struct Impl;
+  struct EVIGRID_LOCAL Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -6,7 +6,7 @@
 
 #include "evigrid/sensor.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 struct RevisionNetwork {
   static constexpr int kIn = 4, kHidden = 5, kOut = 4;

@@ -9,9 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "evigrid/export.hpp"
 #include "evigrid/sensor.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 /// One sensor's measurement: one range for a cone, `Sensor::beams` ranges for a fan. REP 117: +inf = nothing in
 /// range, −inf = too close, NaN = invalid.

@@ -9,9 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "evigrid/export.hpp"
 #include "evigrid/types.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
 /// hughes1992 (Hughes & Murphy 1992). Distances are linear in (Rmax − d).
 struct Hughes1992 {
@@ -101,9 +102,9 @@ struct Sensor {
   /// A learned revision of what a model of masses says where it says anything, after the discounts, which it replaces: a
   /// trained sensor has a reliability of 1. In maps whose cells hold masses only, of cones; an unfused, slower path.
   std::shared_ptr<const RevisionNetwork> revision{};
-  int beams = 1;              ///< number of ranges in one reading; > 1 only for a fan
-  double first_beam_rad = 0;  ///< bearing of beam 0 in S, counter-clockwise
-  double beam_step_rad = 0;   ///< bearing from one beam to the next
+  int beams = 1;               ///< number of ranges in one reading; > 1 only for a fan
+  double first_beam_rad = 0;   ///< bearing of beam 0 in S, counter-clockwise
+  double beam_step_rad = 0;    ///< bearing from one beam to the next
   Hughes1992 hughes{};
   Oriolo1997 oriolo{};
   Li2006 li2006{};

@@ -8,7 +8,9 @@
 #include <span>
 #include <string_view>
 
-namespace evigrid {
+#include "evigrid/export.hpp"
+
+namespace EVIGRID_API evigrid {
 
 struct Pose2 {
   double x_m = 0, y_m = 0, yaw_rad = 0;

@@ -10,12 +10,31 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string_view>
+#include <vector>
 
+#include "evigrid/export.hpp"
 #include "evigrid/map.hpp"
 
-namespace evigrid {
+namespace EVIGRID_API evigrid {
 
-class ViewState;
+class EVIGRID_LOCAL ViewState;
+
+/// A tile of a view where it lies in memory, for consumers that read cells without a copy. Blocks of 4 × 4 cells, each
+/// with its planes one after the other, 16 floats a plane; blocks row by row from the smallest y. As an array with
+/// strides that is planes × 16 × 4 × 16 × 4: plane, block row, row, block column, column.
+struct TilePlanes {
+  static constexpr std::int64_t kSide = 64, kBlock = 4, kBlockCells = kBlock * kBlock;
+  CellRect rect{};              ///< 64 × 64 cells of the map
+  const float* data = nullptr;  ///< lives as long as a copy of the view
+  int planes = 0;
+
+  /// Where the cell x, y (0 … 63 from the corner of rect) has its value of a plane.
+  [[nodiscard]] const float& at(int plane, std::int64_t x, std::int64_t y) const noexcept {
+    const std::int64_t block = y / kBlock * (kSide / kBlock) + x / kBlock;
+    return data[(block * planes + plane) * kBlockCells + y % kBlock * kBlock + x % kBlock];
+  }
+};
 
 class MapView {
  public:
@@ -33,6 +52,12 @@ class MapView {
   [[nodiscard]] const MapParams& params() const noexcept;
   [[nodiscard]] std::span<const Sensor> sensors() const noexcept;
   [[nodiscard]] std::size_t tiles() const noexcept;
+
+  /// What each cell keeps: the state of the rule ("e", "o", "u" for those whose cells are masses), then the history.
+  [[nodiscard]] std::vector<std::string_view> plane_names() const;
+  /// All tiles, in row-major order. In maps that forget, cells are here as they were when they were last told
+  /// something; mass() and render() read them as they are now.
+  [[nodiscard]] std::vector<TilePlanes> tile_planes() const;
 
   /// Of the map when the view was made.
   [[nodiscard]] std::uint64_t version() const noexcept;

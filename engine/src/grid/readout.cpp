@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grid/decay.hpp"
+#include "grid/rect.hpp"
 
 namespace evigrid {
 namespace {
@@ -95,13 +96,6 @@ void layer_of(Layer layer, const ReadOutParams& params, const Micro& m, float* o
   }
 }
 
-void require_room(CellRect rect, std::size_t size, std::ptrdiff_t stride) {
-  const auto needed = static_cast<std::size_t>(rect.height - 1) * static_cast<std::size_t>(stride) +
-                      static_cast<std::size_t>(rect.width);
-  if (stride < rect.width || size < needed)
-    throw std::invalid_argument("render: the buffer is smaller than the rectangle");
-}
-
 /// The part of `rect` in one tile, micro-tile by micro-tile: of(micro, out) makes 16 values, straight from the planes
 /// where these are masses so that the compiler sees vectors; those within the rectangle go to their rows. `part` lies
 /// in the tile.
@@ -133,7 +127,7 @@ void fill_tile(const TileSource& store, const float* cells, CellRect part, T* to
 template <class T, class F>
 void fill(const TileSource& store, CellRect rect, std::span<T> out, std::ptrdiff_t stride, T never_seen, F&& of) {
   if (rect.empty()) return;
-  require_room(rect, out.size(), stride);
+  require_room("render", rect, out.size(), stride);
   const std::int64_t x_end = rect.x + rect.width, y_end = rect.y + rect.height;
   for (std::int64_t y = rect.y; y < y_end;) {
     const std::int64_t below = std::min((tile_coordinate(y) + 1) * kSide, y_end);

@@ -25,6 +25,7 @@ struct Entry {  // of the directory: one tile
   std::int64_t x = 0, y = 0;
   std::uint64_t offset = 0;
   std::uint32_t bytes = 0, crc = 0;  // of the block as it lies in the file
+  std::size_t number = 0;            // its place in the directory, for messages
 };
 
 struct Tail {

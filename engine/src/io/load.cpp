@@ -2,7 +2,6 @@
 // Nothing is believed before its checksum, no size before it is compared with the file and the memory cap. The parts of
 // a file lie without gaps, so every byte is under a checksum.
 #include <algorithm>
-#include <fstream>
 #include <limits>
 
 #include "evigrid/combine.hpp"
@@ -10,50 +9,26 @@
 #include "io/header.hpp"
 #include "io/layout.hpp"
 #include "io/map_access.hpp"
+#include "io/region.hpp"
+#include "io/source.hpp"
 #include "io/tile_codec.hpp"
 
 namespace evigrid {
 namespace {
 
+using io::Source;
+
 constexpr std::size_t kBatch = 256;  // tiles held compressed at a time
-
-/// Where the bytes come from: memory, or a file of which only the part asked for is read.
-class Source {
- public:
-  Source(std::span<const std::byte> bytes, std::string_view source_name)
-      : name_(source_name), size_(bytes.size()), memory_(bytes) {}
-  explicit Source(const std::filesystem::path& path) : name_(path.string()) {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) fail("is a folder, not a map");
-    file_.open(path, std::ios::binary | std::ios::ate);
-    if (!file_) fail("cannot be opened");
-    size_ = static_cast<std::uint64_t>(file_.tellg());
-  }
-  [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
-  /// The caller has checked the range against size(). Valid until the next call.
-  std::span<const std::byte> read(std::uint64_t at, std::size_t n) {
-    if (!file_.is_open()) return memory_.subspan(static_cast<std::size_t>(at), n);
-    buffer_.resize(n);
-    file_.seekg(static_cast<std::streamoff>(at));
-    file_.read(reinterpret_cast<char*>(buffer_.data()), static_cast<std::streamsize>(n));
-    if (!file_) fail("cannot be read");
-    return buffer_;
-  }
-  [[noreturn]] void fail(const std::string& reason) const { throw MapFileError(name_, reason); }
-
- private:
-  std::string name_;
-  std::uint64_t size_ = 0;
-  std::span<const std::byte> memory_;
-  std::ifstream file_;
-  std::vector<std::byte> buffer_;
-};
 
 struct Opened {
   MapFileInfo info;
   io::Tail tail;
   std::uint64_t first_block = 0;
 };
+
+std::uint64_t tile_bytes(const MapFileInfo& info) noexcept {
+  return info.planes.size() * sizeof(float) * kernels::kTileSide * kernels::kTileSide;
+}
 
 Opened open(Source& in) {
   Opened out;
@@ -100,7 +75,7 @@ Opened open(Source& in) {
   out.info.format_version = version;
   out.info.tiles = out.tail.tiles;
   out.info.file_bytes = in.size();
-  out.info.memory_bytes = out.tail.tiles * planes.size() * sizeof(float) * kernels::kTileSide * kernels::kTileSide;
+  out.info.memory_bytes = out.tail.tiles * tile_bytes(out.info);
   return out;
 }
 
@@ -112,9 +87,9 @@ std::vector<io::Entry> read_directory(Source& in, const Opened& file) {
   for (std::size_t i = 0; i < out.size(); ++i) {
     const std::size_t at = i * io::kEntryBytes;
     io::Entry& e = out[i];
-    e = {io::number_at<std::int64_t>(bytes, at), io::number_at<std::int64_t>(bytes, at + 8),
+    e = {io::number_at<std::int64_t>(bytes, at),       io::number_at<std::int64_t>(bytes, at + 8),
          io::number_at<std::uint64_t>(bytes, at + 16), io::number_at<std::uint32_t>(bytes, at + 24),
-         io::number_at<std::uint32_t>(bytes, at + 28)};
+         io::number_at<std::uint32_t>(bytes, at + 28), i};
     const bool ordered = i == 0 || TileIndex{out[i - 1].y, out[i - 1].x} < TileIndex{e.y, e.x};
     const bool inside = std::max({e.x, e.y}) <= io::kMaxTile && std::min({e.x, e.y}) >= -io::kMaxTile;
     if (!ordered || !inside || e.offset != next || e.bytes > file.tail.directory_offset - next)
@@ -147,13 +122,21 @@ void note_all(ChangeLog& changes, Tile& tile) {
   changes.moved(tile);
 }
 
+/// How many entries from the first on lie one behind the other in the file, at most a batch.
+std::size_t together(std::span<const io::Entry> entries) {
+  std::size_t n = 1;
+  while (n < std::min(kBatch, entries.size()) && entries[n].offset == entries[n - 1].offset + entries[n - 1].bytes) ++n;
+  return n;
+}
+
 void read_tiles(Source& in, std::span<const io::Entry> entries, Map& map) {
   TileStore& store = MapAccess::store(map);
   ChangeLog& changes = MapAccess::changes(map);
   Executor& executor = MapAccess::executor(map);
   std::vector<io::TileDecoder> decoders(static_cast<std::size_t>(executor.concurrency()));
-  for (std::size_t first = 0; first < entries.size(); first += kBatch) {
-    Batch batch{store, entries.subspan(first, std::min(kBatch, entries.size() - first)), {}, {}, {}, decoders};
+  for (std::size_t first = 0, count = 0; first < entries.size(); first += count) {
+    count = together(entries.subspan(first));
+    Batch batch{store, entries.subspan(first, count), {}, {}, {}, decoders};
     for (const io::Entry& e : batch.entries) batch.tiles.push_back(&store.get_or_make({e.y, e.x}));
     const io::Entry& last = batch.entries.back();
     const std::uint64_t from = batch.entries.front().offset;
@@ -166,7 +149,7 @@ void read_tiles(Source& in, std::span<const io::Entry> entries, Map& map) {
         },
         &batch);
     for (std::size_t i = 0; i < batch.wrong.size(); ++i) {
-      if (batch.wrong[i] != nullptr) in.fail("tile " + std::to_string(first + i) + " " + batch.wrong[i]);
+      if (batch.wrong[i] != nullptr) in.fail("tile " + std::to_string(batch.entries[i].number) + " " + batch.wrong[i]);
     }
     for (Tile* tile : batch.tiles) note_all(changes, *tile);
   }
@@ -178,19 +161,28 @@ Map read_map(Source& in, const LoadOptions& options) {
   MapParams params = file.info.params;
   if (options.memory_cap_bytes) params.memory_cap_bytes = *options.memory_cap_bytes;
   params.kernel = options.kernel.value_or(kernel_available(params.kernel) ? params.kernel : Kernel::automatic);
-  if (file.info.memory_bytes > params.memory_cap_bytes) {  // tiles are bounded by the file's size: no overflow
-    in.fail("its " + std::to_string(file.info.tiles) + " tiles need " + std::to_string(file.info.memory_bytes) +
+  const auto require_fits = [&](std::uint64_t tiles) {  // bounded by the file's size: no overflow
+    const std::uint64_t bytes = tiles * tile_bytes(file.info);
+    if (bytes <= params.memory_cap_bytes) return;
+    in.fail("its " + std::to_string(tiles) + " tiles need " + std::to_string(bytes) +
             " bytes, more than the memory cap of " + std::to_string(params.memory_cap_bytes));
+  };
+  if (!options.region) require_fits(file.info.tiles);
+  std::vector<io::Entry> entries = read_directory(in, file);
+  if (options.region) {
+    io::keep_region(entries, *options.region);
+    require_fits(entries.size());
   }
-  const std::vector<io::Entry> entries = read_directory(in, file);
   try {
     Map map(params, options.executor);
     for (const Sensor& sensor : file.info.sensors) map.add(sensor);
     read_tiles(in, entries, map);
+    if (options.region) io::clear_around(map, entries, *options.region);
     if (file.info.last_stamp_ns) MapAccess::last_stamp_ns(map) = *file.info.last_stamp_ns;
     // The definition of the hash may change with the maths; within one version it proves the whole way.
-    if (file.info.maths_version == kMathsVersion && map.hash() != file.info.hash)
+    if (!options.region && file.info.maths_version == kMathsVersion && map.hash() != file.info.hash)
       in.fail("its cells do not have the hash that its header names");
+    if (options.bytes_read != nullptr) *options.bytes_read = in.bytes_read();
     return map;
   } catch (const std::invalid_argument& bad) {  // parameters or sensors that no map accepts
     in.fail(std::string("header: ") + bad.what());

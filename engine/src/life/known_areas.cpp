@@ -7,23 +7,18 @@
 #include <string>
 
 #include "grid/cell_state.hpp"
+#include "grid/rect.hpp"
 
 namespace evigrid {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) { throw std::invalid_argument("write: " + why); }
 
-void require_room(CellRect rect, std::size_t size, std::ptrdiff_t stride) {
-  if (stride < rect.width || size < static_cast<std::size_t>(rect.height - 1) * static_cast<std::size_t>(stride) +
-                                        static_cast<std::size_t>(rect.width))
-    refuse("fewer values than the rectangle has cells");
-}
-
 }  // namespace
 
 void write_masses(const Grid& g, CellRect rect, std::span<const Mass> masses, std::ptrdiff_t stride) {
   if (rect.empty()) return;
-  require_room(rect, masses.size(), stride);
+  require_room("write", rect, masses.size(), stride);
   const auto at = [&](std::int64_t x, std::int64_t y) {
     return &masses[static_cast<std::size_t>((y - rect.y) * stride + (x - rect.x))];
   };
@@ -39,7 +34,7 @@ void write_masses(const Grid& g, CellRect rect, std::span<const Mass> masses, st
 void write_occupancy(const Grid& g, CellRect rect, std::span<const std::int8_t> values, std::ptrdiff_t stride,
                      double certainty) {
   if (rect.empty()) return;
-  require_room(rect, values.size(), stride);
+  require_room("write", rect, values.size(), stride);
   if (!(certainty > 0 && certainty <= 1)) refuse("certainty is not in (0, 1]");
   Mass of_percent[101];
   for (int p = 0; p <= 100; ++p) {

@@ -82,8 +82,8 @@ void RevisedReading::revise(const Sensor& sensor, const MapParams& params, float
   for (std::size_t i = 0; i < n; ++i) {
     const float* const c = cells_[i];
     const double sum = (static_cast<double>(c[0]) + c[kCells]) + (static_cast<double>(c[2 * kCells]) + c[3 * kCells]);
-    const ModelMass r = evigrid::revise(
-        *sensor.revision, {c[0] / sum, c[kCells] / sum, c[2 * kCells] / sum, c[3 * kCells] / sum});
+    const ModelMass r =
+        evigrid::revise(*sensor.revision, {c[0] / sum, c[kCells] / sum, c[2 * kCells] / sum, c[3 * kCells] / sum});
     zero[i] = 0, one[i] = 1;
     x[i] = static_cast<float>(r.e), y[i] = static_cast<float>(r.o);
     v[i] = static_cast<float>(r.u), z[i] = static_cast<float>(r.c);

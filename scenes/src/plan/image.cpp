@@ -10,16 +10,18 @@
 namespace evigrid::scenes {
 namespace {
 
-PlanCell meaning(const Shading& shading, std::uint32_t level, std::uint32_t white) {
+std::int8_t meaning(const Shading& shading, std::uint32_t level, std::uint32_t white) {
   const std::uint32_t dark = shading.negate ? level : white - level;
-  double p = static_cast<double>(dark) / white;
   if (shading.mode == ShadeMode::raw) {
     const double per_cent = std::round(255.0 * (white - dark) / white);
-    if (per_cent > 100) return PlanCell::unknown;
-    p = per_cent / 100;
+    return per_cent > 100 ? kUnknown : static_cast<std::int8_t>(per_cent);
   }
-  if (p > shading.occupied_threshold) return PlanCell::occupied;
-  return p < shading.free_threshold ? PlanCell::free : PlanCell::unknown;
+  const double p = static_cast<double>(dark) / white;
+  if (p > shading.occupied_threshold) return kOccupied;
+  if (p < shading.free_threshold) return kFree;
+  if (shading.mode == ShadeMode::trinary) return kUnknown;
+  const double width = shading.occupied_threshold - shading.free_threshold;
+  return static_cast<std::int8_t>(1 + 98 * (width > 0 ? (p - shading.free_threshold) / width : 0));
 }
 
 }  // namespace
@@ -27,6 +29,17 @@ PlanCell meaning(const Shading& shading, std::uint32_t level, std::uint32_t whit
 PixelRule::PixelRule(const Shading& shading, std::uint32_t white) : ignore_alpha_(shading.mode == ShadeMode::raw) {
   cells_.reserve(white + std::size_t{1});
   for (std::uint32_t level = 0; level <= white; ++level) cells_.push_back(meaning(shading, level, white));
+}
+
+PlanCell cell_of(std::int8_t occupancy, const Shading& shading) noexcept {
+  if (occupancy == kUnknown) return PlanCell::unknown;
+  if (shading.mode == ShadeMode::raw) {
+    const double p = occupancy / 100.0;
+    return p > shading.occupied_threshold ? PlanCell::occupied
+           : p < shading.free_threshold   ? PlanCell::free
+                                          : PlanCell::unknown;
+  }
+  return occupancy == kOccupied ? PlanCell::occupied : occupancy == kFree ? PlanCell::free : PlanCell::unknown;
 }
 
 void check_size(std::int64_t width, std::int64_t height, const std::string& name) {

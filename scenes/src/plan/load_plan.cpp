@@ -52,7 +52,7 @@ void check_scale(const ImageScale& s, const std::string& name) {
 }
 
 /// Puts a bitmap to scale; by default its pixels are `resolution_m` and its corner is at (0, 0).
-FloorPlan place(Bitmap bitmap, const ImageScale& scale, double resolution_m) {
+FloorPlan place(Bitmap bitmap, const Shading& shading, const ImageScale& scale, double resolution_m) {
   FloorPlan plan;
   plan.width = bitmap.width;
   plan.height = bitmap.height;
@@ -63,7 +63,10 @@ FloorPlan place(Bitmap bitmap, const ImageScale& scale, double resolution_m) {
     plan.origin = {-scale.size_m->x_m / 2, -scale.size_m->y_m / 2, 0};
   }
   if (scale.origin) plan.origin = *scale.origin;
-  plan.cells = std::move(bitmap.cells);
+  plan.occupancy = std::move(bitmap.cells);
+  plan.cells.resize(plan.occupancy.size());
+  std::transform(plan.occupancy.begin(), plan.occupancy.end(), plan.cells.begin(),
+                 [&](std::int8_t occupancy) { return cell_of(occupancy, shading); });
   return plan;
 }
 
@@ -77,7 +80,7 @@ FloorPlan load_map_yaml(Bytes bytes, const std::filesystem::path& path, const Im
   ImageScale whole = scale;
   whole.resolution_m = yaml.resolution_m;
   if (!whole.origin) whole.origin = yaml.origin;
-  return place(read_image(image, yaml.image, yaml.shading), whole, yaml.resolution_m);
+  return place(read_image(image, yaml.image, yaml.shading), yaml.shading, whole, yaml.resolution_m);
 }
 
 }  // namespace
@@ -107,14 +110,14 @@ FloorPlan load_plan_bytes(std::span<const std::byte> bytes, const std::filesyste
   check_scale(scale, name.string());
   if (bytes.empty()) throw SceneError(name.string() + ": is empty");
   if (is_yaml(extension)) return load_map_yaml(bytes, name, scale);
-  if (extension == ".map") return place(read_movingai(bytes, name.string()), scale, 1);
+  if (extension == ".map") return place(read_movingai(bytes, name.string()), {}, scale, 1);
   const Shading shading{scale.negate, scale.occupied_threshold, scale.free_threshold, ShadeMode::trinary};
   if (extension != ".pgm" && extension != ".png" && extension != ".bmp")
     throw SceneError(name.string() +
                      ": format: is not known by its extension; plans are .yaml, .yml, .map, .pgm, .png or .bmp");
   if (!scale.resolution_m && !scale.size_m)
     throw SceneError(name.string() + ": resolution_m: is missing: an image alone does not say its scale");
-  return place(read_image(bytes, name, shading), scale, 0);
+  return place(read_image(bytes, name, shading), shading, scale, 0);
 }
 
 FloorPlan load_plan(const std::filesystem::path& file, const ImageScale& scale) {

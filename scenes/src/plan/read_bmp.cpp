@@ -140,7 +140,7 @@ Bitmap read_bmp(Bytes bytes, const std::string& name, const Shading& shading) {
   Bitmap bitmap(h.width, h.height, name);
   for (std::int64_t y = 0; y < h.height; ++y) {
     const std::byte* row = b.at(h.offset + stride * static_cast<std::size_t>(y));
-    PlanCell* out = bitmap.row_from_top(h.top_down ? y : h.height - 1 - y);
+    std::int8_t* out = bitmap.row_from_top(h.top_down ? y : h.height - 1 - y);
     for (std::int64_t x = 0; x < h.width; ++x) {
       const std::uint32_t pixel = pixel_of(row, x, h.bits);
       if (!h.palette.empty()) {

@@ -66,13 +66,13 @@ Bitmap read_movingai(Bytes bytes, const std::string& name) {
     const std::string_view line = lines.next(field);
     if (line.size() != static_cast<std::size_t>(width))
       lines.fail(field, "has " + std::to_string(line.size()) + " cells, width is " + std::to_string(width));
-    PlanCell* out = bitmap.row_from_top(y);
+    std::int8_t* out = bitmap.row_from_top(y);
     for (std::size_t x = 0; x < line.size(); ++x) {
       const char c = line[x];
       if (c == '.' || c == 'G' || c == 'S')
-        out[x] = PlanCell::free;
+        out[x] = kFree;
       else if (c == '@' || c == 'O' || c == 'T' || c == 'W')
-        out[x] = PlanCell::occupied;
+        out[x] = kOccupied;
       else
         lines.fail(field, "cell " + std::to_string(x) + " is none of . G S @ O T W");
     }

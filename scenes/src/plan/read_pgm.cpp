@@ -83,7 +83,7 @@ Bitmap read_pgm(Bytes bytes, const std::string& name, const Shading& shading) {
   Bitmap bitmap(width, height, name);
   const std::byte* in = bytes.data() + text.at();
   for (std::int64_t y = 0; y < height; ++y) {
-    PlanCell* row = bitmap.row_from_top(y);
+    std::int8_t* row = bitmap.row_from_top(y);
     for (std::int64_t x = 0; x < width; ++x) {
       std::uint32_t level = 0;
       if (kind == '2') {

@@ -95,7 +95,7 @@ void take_row(void* to, std::int64_t y, const png_byte* row) {
   const auto sample = [&](std::size_t i) -> std::uint32_t {
     return wide ? static_cast<std::uint32_t>(row[2 * i] << 8 | row[2 * i + 1]) : row[i];
   };
-  PlanCell* out = t.bitmap->row_from_top(y);
+  std::int8_t* out = t.bitmap->row_from_top(y);
   std::size_t i = 0;
   for (std::int64_t x = 0; x < t.bitmap->width; ++x) {
     std::uint32_t level = 0;

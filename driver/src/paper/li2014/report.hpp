@@ -16,6 +16,8 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// Tables 1 to 3, and 50 000 groups in a cycle.
 void add_tables(PaperResult& out, const PaperOptions& options);
+/// Table 3's learned revision.
+void add_revision(PaperResult& out, const PaperOptions& options);
 void add_dynamic_room(PaperResult& out, const PaperOptions& options);
 void add_heading(PaperResult& out, const PaperOptions& options);
 void add_trap(PaperResult& out, const PaperOptions& options);

@@ -3,7 +3,10 @@
 #pragma once
 #include <limits>
 
-namespace evigrid::raycast {
+#include "evigrid/raycast/export.hpp"
+
+namespace evigrid {
+namespace EVIGRID_RAYCAST_API raycast {
 
 /// One ping, in the map frame: apex, direction of the axis, full opening.
 struct ConeQuery {
@@ -32,4 +35,5 @@ struct Echo {
   double range_m = std::numeric_limits<double>::infinity();  ///< +∞ when there is no echo
 };
 
-}  // namespace evigrid::raycast
+}  // namespace raycast
+}  // namespace evigrid

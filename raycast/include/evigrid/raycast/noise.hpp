@@ -4,7 +4,10 @@
 #pragma once
 #include <cstdint>
 
-namespace evigrid::raycast {
+#include "evigrid/raycast/export.hpp"
+
+namespace evigrid {
+namespace EVIGRID_RAYCAST_API raycast {
 
 struct NoiseKey {
   std::uint64_t seed = 0;
@@ -30,4 +33,5 @@ struct RangeNoise {
 [[nodiscard]] double noisy(double range_m, const RangeNoise& noise, const NoiseKey& key,
                            std::uint32_t index = 0) noexcept;
 
-}  // namespace evigrid::raycast
+}  // namespace raycast
+}  // namespace evigrid

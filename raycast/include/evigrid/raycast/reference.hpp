@@ -2,9 +2,11 @@
 // The same question answered slowly, by another method and without Embree: for proving the caster, not for use.
 #pragma once
 #include "evigrid/raycast/cone.hpp"
+#include "evigrid/raycast/export.hpp"
 #include "evigrid/raycast/world.hpp"
 
-namespace evigrid::raycast {
+namespace evigrid {
+namespace EVIGRID_RAYCAST_API raycast {
 
 /// Angular sweep over all surfaces: between neighbouring event angles the order of the surfaces cannot change, so the
 /// first one is minimised analytically. O(n³). Same contract as Scene::cast_cone.
@@ -13,4 +15,5 @@ namespace evigrid::raycast {
 /// First surface along one ray by testing all of them; +∞ when farther than max_range_m.
 [[nodiscard]] double reference_ray(const World& world, double x_m, double y_m, double angle_rad, double max_range_m);
 
-}  // namespace evigrid::raycast
+}  // namespace raycast
+}  // namespace evigrid

@@ -7,9 +7,11 @@
 #include <span>
 
 #include "evigrid/raycast/cone.hpp"
+#include "evigrid/raycast/export.hpp"
 #include "evigrid/raycast/world.hpp"
 
-namespace evigrid::raycast {
+namespace evigrid {
+namespace EVIGRID_RAYCAST_API raycast {
 
 /// How the surfaces of the world are found for cones. Both give the same answers, bit for bit: an index proposes, the
 /// exact code decides. Rays and the surfaces of movers always go by Embree's hierarchies or short lists.
@@ -83,4 +85,5 @@ class Scene {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace evigrid::raycast
+}  // namespace raycast
+}  // namespace evigrid

@@ -5,7 +5,10 @@
 #include <numbers>
 #include <vector>
 
-namespace evigrid::raycast {
+#include "evigrid/raycast/export.hpp"
+
+namespace evigrid {
+namespace EVIGRID_RAYCAST_API raycast {
 
 /// Acoustic property of a surface. Beyond the critical incidence (measured from the surface normal) sound is thrown
 /// away from the sensor: that part of the surface gives no echo, but it still hides what is behind it.
@@ -59,4 +62,5 @@ struct Placement {
   double x_m = 0, y_m = 0, yaw_rad = 0;
 };
 
-}  // namespace evigrid::raycast
+}  // namespace raycast
+}  // namespace evigrid

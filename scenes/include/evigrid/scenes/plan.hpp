@@ -23,6 +23,9 @@ struct FloorPlan {
   double resolution_y_m = 0;           ///< along y: differs only for a Stage bitmap that is stretched to a size
   Pose origin{};                       ///< of the lower left corner of the lower left pixel, in the map frame
   std::vector<PlanCell> cells{};       ///< row-major, row 0 at the bottom
+  /// The same cells as nav_msgs/OccupancyGrid has them: −1 unknown, 0 free … 100 occupied; between them only of images
+  /// in the modes scale and raw. Empty in a plan that was not read from a file.
+  std::vector<std::int8_t> occupancy{};
 
   [[nodiscard]] PlanCell at(std::int64_t x, std::int64_t y) const {
     return cells[static_cast<std::size_t>(y * width + x)];

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that export and convert share.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "export/export.hpp"
+
+namespace evigrid::driver {
+
+struct ExportArgs {
+  std::string out, format;  ///< format empty: by the extension of `out`
+  std::vector<double> region_m, slab_m;
+  ExportOptions options;
+
+  /// Checks all that can be wrong before a map is read; fills options. Throws InputError.
+  ExportFormat checked();
+};
+
+void add_export_options(CLI::App& command, ExportArgs& args);
+
+}  // namespace evigrid::driver
