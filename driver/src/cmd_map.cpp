@@ -85,6 +85,7 @@ void add_map(CLI::App& app) {
       "  evigrid map Garden.txt -o out --sensors sonar --max-range 2.5\n"
       "  evigrid map sensor_readings_24.data -o out --scans 120\n"
       "  evigrid map drive.bag -o out --topics /scan --base-frame base_footprint\n"
+      "  evigrid map ring/ -o out --revision revision.json            what `evigrid train` learned of these sonars\n"
       "  evigrid map intel.log.gz -o out --journal intel.journal      and, after a crash, the same with --resume\n"
       "  evigrid map intel.log.gz -o out --threads 2 --executor openmp --kernel avx2 --json -\n");
   command->callback([args] { map_log(*args); });

@@ -106,6 +106,7 @@ void add_run(CLI::App& app) {
       "  evigrid run li2014 -o out\n"
       "  evigrid run room.toml -o out --rule dempster --model hughes1992 --threads 2\n"
       "  evigrid run room.toml -o out --robot pioneer16\n"
+      "  evigrid run -o out --revision revision.json\n"
       "  evigrid run --world willow.yaml -o out --robot laser180 --start 10,20,90\n"
       "  evigrid run --world building -o out --seed 7\n");
   command->callback([args, command] { run_scene(*args, command->count("--rule") > 0); });

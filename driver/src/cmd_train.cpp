@@ -120,7 +120,7 @@ void add_train(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("train", "a learned revision of a sensor's masses, from readings beside true ranges");
   command->add_option("DATA", args->data, "CSV of `evigrid cast --truth`, or a log that holds true ranges")->required();
-  command->add_option("-o,--out", args->out, "the revision, a small JSON file, for `evigrid model --revision`")
+  command->add_option("-o,--out", args->out, "the revision, a small JSON file, for --revision of `evigrid map`, run and model")
       ->required();
   command->add_option("--model", args->model, "sensor model whose masses are revised")->capture_default_str();
   command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable");
@@ -146,7 +146,8 @@ void add_train(CLI::App& app) {
       "Examples:\n"
       "  evigrid cast --truth -o readings.csv\n"
       "  evigrid train readings.csv --together -o revision.json\n"
-      "  evigrid model li2014 --reading 1.493 --at 1.5,0 --revision revision.json\n");
+      "  evigrid model li2014 --reading 1.493 --at 1.5,0 --revision revision.json\n"
+      "  evigrid run -o out --revision revision.json\n");
   command->callback([args] { run_train(*args); });
 }
 

@@ -12,6 +12,7 @@
 #include "out/layers.hpp"
 #include "picture/look.hpp"
 #include "progress.hpp"
+#include "revision/network.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -81,7 +82,8 @@ Sensor configured(const LogSensor& from_log, const MappingOptions& o, bool mixed
         "--clear-no-return: is for lasers; a sonar that hears no echo does not show that its cone is empty");
   }
   const double own = from_log.stated || s.reliability < 1 ? s.reliability : fan ? 1.0 : 0.9;
-  s.reliability = o.reliability.value_or(own);
+  const bool revised = !o.revision.empty() && !fan;  // in place of a fixed discount
+  s.reliability = o.reliability.value_or(revised ? 1.0 : own);
   if (o.contextual.size() == 2) s.reliability_if_empty = o.contextual[0], s.reliability_if_occupied = o.contextual[1];
   apply_dependence(o.dependence, s);
   if (const auto errors = check(s); !errors.empty()) throw InputError(listed(errors));
@@ -98,7 +100,12 @@ Fused fuse(const Log& log, const MappingOptions& options, Plan plan, const Journ
   if (!options.cell_m && !log.fans()) plan.params.cell_m = 0.1;
   std::vector<Sensor> sensors;
   const bool mixed = holds_both_kinds(log);
-  for (const LogSensor& s : log.sensors) sensors.push_back(configured(s, options, mixed));
+  std::vector<Revision> revisions;
+  if (!options.revision.empty()) revisions = read_revisions(options.revision);
+  for (const LogSensor& s : log.sensors) {
+    sensors.push_back(configured(s, options, mixed));
+    apply_revision(revisions, options.revision, sensors.size() - 1, sensors.back());
+  }
 
   Fused out{Map(plan.params, plan.executor), {}, 0, {}, plan.executor};
   std::vector<SensorId> ids;

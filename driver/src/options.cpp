@@ -121,6 +121,9 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("--dependence", o.dependence,
                      "what readings of one scan are to one another where they overlap: independent, cautious, "
                      "once_per_scan, or\nweighted=EXPONENT in (0, 1] (rules whose cells are masses)");
+  command.add_option("--revision", o.revision,
+                     "revise what each sonar's model says by this file of `evigrid train` (rules whose cells are "
+                     "masses); in place of a\nfixed discount: the default of --reliability is then 1");
   command.add_option("--filter", o.filter,
                      "drop readings before fusing: false_reflection[=METRES], by their neighbours in a ring (Li et al. "
                      "2014; default 0.1), or none");

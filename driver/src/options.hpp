@@ -21,6 +21,7 @@ struct MappingOptions {
   bool params_of_other_models = false;  ///< compare gives each row those of all rows
   std::optional<double> decay_s;        ///< empty: the scene's, or never
   std::string dependence;               ///< of a scan's readings; empty: the scene's, or independent
+  std::string revision;                 ///< a file of `evigrid train`; empty: none
   std::string filter;                   ///< of readings; empty: the scene's, or none
   std::vector<double> contextual;  ///< empty, or reliability if empty and if occupied
   bool clear_no_return = false;

@@ -78,6 +78,7 @@ Json make_report(const Log& log, const Fused& f, const MappingOptions& o, const 
                        {"max_range_m", s.max_range_m},
                        {"no_return_m", s.no_return_m},
                        {"reliability", s.reliability}});
+    if (s.revision) sensors.back()["revision"] = o.revision;
   }
   r["sensors"] = sensors;
   r["masses"] = fmt::format("masses.npy: float32 ({}, height, width): {}; row 0 is the smallest y", layers.count(),

@@ -91,7 +91,7 @@ class RegionTask {
       args.planes = b_.p.store.planes();
       args.conflict_plane = b_.p.params.keep_conflict && !b_.p.undo;
       args.rule = b_.rule;
-      if (c.footprint->sensor->sensor.dependence != Dependence::independent) {
+      if (const Sensor& s = c.footprint->sensor->sensor; s.dependence != Dependence::independent || s.revision) {
         hear_cone(*c.footprint, args);
         continue;
       }
@@ -144,15 +144,20 @@ class RegionTask {
   }
 
   /// Readings that are no distinct evidence: what they say is kept until their scan is over.
-  DependentReadings& together(const Sensor& s) { return s_.together[static_cast<int>(s.dependence) - 1]; }
+  DependentReadings& together(const Sensor& s) {
+    return s.dependence == Dependence::independent ? s_.alone : s_.together[static_cast<int>(s.dependence) - 1];
+  }
   void hear_cone(const Footprint& f, kernels::ConeArgs args) {
     std::size_t count = 0, at = 0;
     for (const kernels::ZoneMicros& zone : args.zone) count += static_cast<std::size_t>(zone.count);
     if (count == 0) return;
-    float* const blank = s_.blank.blank(b_.p.store, count);
-    const std::ptrdiff_t micro = kernels::kMicroCells * args.planes;
+    const Sensor& sensor = f.sensor->sensor;
+    const std::vector<Plane>& planes = sensor.revision ? planes_of_revised() : b_.p.store.layout().planes;
+    float* const blank = s_.blank.blank(planes, count);
+    const auto micro = static_cast<std::ptrdiff_t>(kernels::kMicroCells * planes.size());
     s_.blank_cells.resize(count + kernels::kConeZones * kernels::kConeAhead);
     kernels::ConeArgs heard = args;
+    heard.planes = static_cast<int>(planes.size());
     heard.conflict_plane = heard.rule.con = heard.rule.last = false;
     float** listed = s_.blank_cells.data();
     for (kernels::ZoneMicros& zone : heard.zone) {
@@ -160,15 +165,18 @@ class RegionTask {
       for (int i = 0; i < zone.count; ++i) *listed++ = blank + static_cast<std::ptrdiff_t>(at++) * micro;
       for (int i = 0; i < kernels::kConeAhead; ++i) *listed++ = blank;
     }
-    b_.p.table.fuse_cone[rule_][f.cone_model](heard, f.cone, stats);
+    const int rule = sensor.revision ? static_cast<int>(kernels::kConjunctive) : rule_;
+    b_.p.table.fuse_cone[rule][f.cone_model](heard, f.cone, stats);
+    if (sensor.revision) s_.revised.revise(sensor, b_.p.params, blank, count);
+    DependentReadings& said = together(sensor);
     for (int z = 0; z < kernels::kConeZones; ++z) {
-      for (int i = 0; i < args.zone[z].count; ++i)
-        together(f.sensor->sensor).add(f.sensor->sensor, args.zone[z].cells[i], heard.zone[z].cells[i]);
+      for (int i = 0; i < args.zone[z].count; ++i) said.add(sensor, args.zone[z].cells[i], heard.zone[z].cells[i]);
     }
+    if (sensor.dependence == Dependence::independent && !said.empty()) meet(said, f.stamp_ns, sensor.decay_s);
   }
   void hear_fan(const Footprint& f, const kernels::TileArgs& args) {
     kernels::TileArgs heard = args;
-    heard.cells = s_.blank.blank(b_.p.store, kernels::kMicrosPerTile);
+    heard.cells = s_.blank.blank(b_.p.store.layout().planes, kernels::kMicrosPerTile);
     heard.conflict_plane = heard.rule.con = heard.rule.last = false;
     b_.p.table.fuse_fan[rule_](heard, f.fan->reading, stats);
     each_micro_of(*args.fan, [&](std::ptrdiff_t m) {
@@ -179,10 +187,12 @@ class RegionTask {
   void end_scan() {
     fuse_cones();
     for (DependentReadings& d : s_.together) {
-      if (d.empty()) continue;
-      fuse_forgetting(
-          stamp_ns_, 0, [&] { d.fuse(b_.p.params, b_.p.store, stats); }, [&](auto&& hold) { d.each_micro(hold); });
+      if (!d.empty()) meet(d, stamp_ns_, 0);
     }
+  }
+  void meet(DependentReadings& d, std::int64_t stamp_ns, double own_s) {
+    fuse_forgetting(
+        stamp_ns, own_s, [&] { d.fuse(b_.p.params, b_.p.store, stats); }, [&](auto&& hold) { d.each_micro(hold); });
   }
 
   /// One reading. In maps that forget, each micro-tile that it may touch is aged before; `each_micro` calls what it is
@@ -232,6 +242,9 @@ bool any_dependent(const Pipeline& p) {
 /// What a device's kernels do not do; empty: they do the whole batch.
 std::string_view not_by_device(const Pipeline& p) {
   if (any_dependent(p)) return "readings that are no distinct evidence are fused on the processor";
+  const auto revised = [](const CompiledSensor& c) { return c.sensor.revision != nullptr; };
+  if (std::any_of(p.sensors.begin(), p.sensors.end(), revised))
+    return "readings with a learned revision are fused on the processor";
   if (!p.admission.guarded.empty()) return "a map with protected areas is fused on the processor";
   return {};
 }

@@ -6,6 +6,7 @@
 #include "grid/decay.hpp"
 #include "scan/bin.hpp"
 #include "scan/dependent.hpp"
+#include "scan/revised.hpp"
 
 namespace evigrid {
 
@@ -22,6 +23,8 @@ struct RegionScratch {
   kernels::FanMicros fan_micros;
   DecayedUpdate decayed;
   DependentReadings together[3];  // a policy: Dependence, without independent
+  DependentReadings alone;        // one reading that is no kernel's: revised
+  RevisedReading revised;
   BlankMicros blank;
   std::vector<float*> blank_cells;
 };

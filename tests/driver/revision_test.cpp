@@ -114,6 +114,25 @@ TEST(Revision, FromSimulatedReadingsToRevisedMasses) {
   ASSERT_EQ(after.code, 0) << after.err;
   EXPECT_NE(after.out, before.out);
   EXPECT_NE(after.out.find("4,0,0,0,1,0"), std::string::npos);  // outside the support nothing is revised
+  const auto hash_of = [&](const std::vector<std::string>& more, const char* out) {
+    std::vector<std::string> words{"run", "-o", dir.at(out), "--cell", "0.1", "--model", "li2014"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ran run = evigrid(words);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return nlohmann::json::parse(slurp(dir.at(std::string(out) + "/report.json")))["map_hash"].get<std::string>();
+  };
+  const std::string plain = hash_of({"--reliability", "1"}, "plain");
+  const std::string with = hash_of({"--revision", dir.at("r.json")}, "with");
+  EXPECT_NE(with, plain);
+  EXPECT_EQ(hash_of({"--revision", dir.at("r.json"), "--kernel", "scalar", "--threads", "2"}, "again"), with);
+  const auto refused = [&](std::vector<std::string> words, const char* why) {
+    words.insert(words.begin(), {"run", "-o", dir.at("no"), "--revision", dir.at("r.json")});
+    const Ran run = evigrid(words);
+    EXPECT_EQ(run.code, 2) << why;
+    EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+  };
+  refused({"--model", "hughes1992"}, "revises li2014");
+  refused({"--model", "li2014", "--rule", "bayes"}, "its cells hold no masses");
   revised[1] = "li2006";
   EXPECT_EQ(evigrid(revised).code, 2);
   EXPECT_EQ(evigrid({"train", dir.write("no.csv", "step,stamp_ns,sensor\n0,0,0\n"), "-o", dir.at("x.json")}).code, 2);

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Builds a copy of the sources with one deliberate mistake in it and wants the named tests to fail.
+Only the portable kernels are built, lightly optimised, and of each program only the tests of the mutant's filter run.
 Usage: run_mutant.py SOURCE_DIR WORK_DIR MUTANTS.json NUMBER [CMAKE ARGUMENTS ...]
 Exit status: 0 the tests failed, as they must; 1 they passed: the mistake would go unseen; 2 the mutant itself is out of
 date (its text is not there exactly once) or does not compile."""
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -43,7 +45,8 @@ def main(source, work, mutants, number, *cmake):
     off = [f"-DEVIGRID_BUILD_{part}=OFF" for part in ("DRIVER", "RAYCAST", "BENCH", "SHARED", "C", "PYTHON")]
     off += ["-DEVIGRID_INSTALL=OFF", "-DEVIGRID_SIMD=OFF"]  # the portable kernels have the same text, and compile in minutes
     for step in (
-        ["cmake", "-S", str(tree), "-B", str(work / "build"), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", *off, *cmake],
+        ["cmake", "-S", str(tree), "-B", str(work / "build"), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
+         "-DCMAKE_CXX_FLAGS_DEBUG=-O1", *off, *cmake],
         ["cmake", "--build", str(work / "build"), "--target", *mutant["tests"]],
     ):
         done = run(*step)
@@ -52,9 +55,10 @@ def main(source, work, mutants, number, *cmake):
             return 2
     for name in mutant["tests"]:
         program = next((work / "build").rglob(name))
-        done = run(str(program), "--gtest_fail_fast", "--gtest_brief=1")
+        done = run(str(program), "--gtest_fail_fast", "--gtest_brief=1", "--gtest_filter=" + mutant.get("filter", "*"))
         if done.returncode != 0:
-            print(f"{mutant['name']}: seen by {name}")
+            failed = re.findall(r"\[  FAILED  \] (\S+)", done.stdout)
+            print(f"{mutant['name']}: seen by {name}, {failed[0] if failed else 'which crashed'}")
             return 0
     print(f"{mutant['name']}: {', '.join(mutant['tests'])} passed with it")
     return 1

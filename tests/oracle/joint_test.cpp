@@ -129,6 +129,23 @@ TEST(JointPublished, DezertDezertSmarandache2021ThreeSources) {
   expect_near(three(Rule::pcr6plus, four), {.788847, .181153, .03}, 5.1e-7, "pcr6plus and a vacuous source");
 }
 
+// The conjunctive part of the same three sources: one after the other, the rule being associative.
+TEST(JointPublished, DezertDezertSmarandache2021ConjunctiveOfThreeSources) {
+  std::array<std::array<double, 4>, 3> m{{{.6, .1, .3}, {.5, .3, .2}, {.4, .1, .5}}};
+  std::vector<Planes<const double>> sources;
+  for (const auto& s : m) sources.push_back({&s[0], &s[1], &s[2], nullptr});
+  std::array<double, 4> c{};
+  for (Rule rule : {Rule::conjunctive, Rule::dsmc}) {
+    evigrid::combine(rule, sources[0], sources[1], Planes<double>{&c[0], &c[1], &c[2], &c[3]},
+                     static_cast<double*>(nullptr), 1);
+    const std::array<double, 4> two = c;
+    evigrid::combine(rule, Planes<const double>{&two[0], &two[1], &two[2], &two[3]}, sources[2],
+                     Planes<double>{&c[0], &c[1], &c[2], &c[3]}, static_cast<double*>(nullptr), 1);
+    expect_near({c[0], c[1], c[2]}, {.537, .09, .03}, 1e-12, "conjunctive");
+    EXPECT_NEAR(c[3], .343, 1e-12) << name(rule);
+  }
+}
+
 TEST(JointFacts, VacuousSourceIsNeutralForAllButPcr1Pcr5Pcr6) {
   const auto m = random_sources<double>(3, 500, 21, false);
   auto more = m;

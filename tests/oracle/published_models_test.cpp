@@ -38,6 +38,18 @@ TEST(PublishedModels, Hughes1992AsInTheBook) {
   EXPECT_NEAR(evaluate(s, 9, 9, 0).u, 0.461, 1e-6);
 }
 
+// Hughes & Murphy 1992, point A: r = 205 cm at 8.74° and 211 cm at −8.66°, printed .8113 and .8012. Their formula with
+// their constants gives .5742 and .5729; only the combination, .9625, agrees with the readings
+// (published_rules_test.cpp).
+TEST(PublishedModels, Hughes1992PointAByTheFormula) {
+  Sensor s;
+  s.model = Model::hughes1992;
+  s.aperture_rad = 30 * kDegree;
+  s.max_range_m = 7.62;
+  EXPECT_NEAR(evaluate(s, 4, 2.05, 8.74 * kDegree).e, .5742, 5.1e-5);
+  EXPECT_NEAR(evaluate(s, 4, 2.11, -8.66 * kDegree).e, .5729, 5.1e-5);
+}
+
 // Li, Huang, Wang, Dezert 2014, Table 3: on the axis, R and d in mm.
 TEST(PublishedModels, Li2014Table3) {
   struct Row {

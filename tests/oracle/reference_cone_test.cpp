@@ -3,6 +3,7 @@
 #include <numbers>
 #include <random>
 
+#include "evigrid/revision.hpp"
 #include "tests/oracle/compare_maps.hpp"
 
 namespace {
@@ -198,6 +199,43 @@ TEST_P(ReferenceCone, DependentReadingsOfOneScan) {
       const Difference d = both.difference();
       expect_within_bounds(d);
       print(std::string(name(GetParam())) + " dependent " + std::string(name(rule)), d);
+    }
+  }
+}
+
+// Sensors with a learned revision beside others, each policy, with and without forgetting.
+TEST_P(ReferenceCone, RevisedReadings) {
+  using evigrid::Dependence;
+  auto network = std::make_shared<evigrid::RevisionNetwork>();
+  for (std::size_t i = 0; i < network->weight.size(); ++i)
+    network->weight[i] = 3 * std::sin(1 + 7.3 * static_cast<double>(i));
+  for (Rule rule : {Rule::dempster, Rule::pcr5, Rule::pcr1, Rule::germ_pcr2, Rule::yager, Rule::conjunctive}) {
+    for (const double decay_s : {0.0, 2.0}) {
+      SCOPED_TRACE(std::string(name(rule)));
+      Both both({.cell_m = 0.1, .rule = rule, .decay_s = decay_s});
+      std::vector<evigrid::SensorId> ids;
+      for (int i = 0; i < 12; ++i) {
+        Sensor s = sonar(GetParam(), 25);
+        s.reliability = 0.95 - 0.02 * (i % 5);
+        s.T_robot_sensor = {0.05, 0.02, -0.6 + 0.1 * i};
+        if (i % 3 != 2) s.revision = network;
+        if (i % 4 == 3) s.dependence = static_cast<Dependence>(1 + i / 4);
+        if (s.dependence == Dependence::weighted) s.weight_exponent = 0.6;
+        ids.push_back(both.add(s));
+      }
+      for (int i = 0; i < 6; ++i) {
+        std::vector<float> ranges_m(ids.size());
+        std::vector<evigrid::Reading> readings;
+        for (std::size_t k = 0; k < ids.size(); ++k) {
+          ranges_m[k] = 1.0F + 0.07F * static_cast<float>((7 * k + 5 * static_cast<std::size_t>(i)) % 13);
+          readings.push_back({ids[k], {&ranges_m[k], 1}});
+        }
+        both.integrate(evigrid::Scan{i * 400'000'000LL, {0.05 * i, 0.031 * i, 0.2 * i}, readings});
+      }
+      both.expect_equal_reports();
+      const Difference d = both.difference();
+      expect_within_bounds(d);
+      print(std::string(name(GetParam())) + " revised " + std::string(name(rule)), d);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "evigrid/revision.hpp"
 #include "tests/oracle/set_rules.hpp"
 
 namespace oracle {
@@ -21,6 +22,23 @@ bool finite(const Pose2& p) { return std::isfinite(p.x_m) && std::isfinite(p.y_m
 bool nearer(double d_squared, double limit) { return limit > 0 && d_squared < limit * limit; }
 
 double square(double t) { return t * t; }
+
+/// Li et al. 2014: logistic neurons, the bias last in each row.
+Source revised(const evigrid::RevisionNetwork& network, const Source& s) {
+  const double in[] = {s.x, s.y, s.v, s.z};
+  const double* w = network.weight.data();
+  const auto neuron = [&w](const double* input, int count) {
+    double t = 0;
+    for (int i = 0; i < count; ++i) t += *w++ * input[i];
+    return 1 / (1 + std::exp(-(t + *w++)));
+  };
+  double hidden[5], out[4], sum = 0;
+  for (double& h : hidden) h = neuron(in, 4);
+  for (double& o : out) sum += o = neuron(hidden, 5);
+  Source r;
+  r.x = out[0] / sum, r.y = out[1] / sum, r.v = out[2] / sum, r.z = out[3] / sum;
+  return r;
+}
 
 }  // namespace
 
@@ -194,6 +212,7 @@ void ReferenceMap::sweep(const Declared& declared, const Pose2& pose, double rad
       const evigrid::CellIndex at{x.cell + i, y.cell + j};
       const Sensor& s = declared.sensor;
       source = discount(contextual(source, s.reliability_if_empty, s.reliability_if_occupied), s.reliability);
+      if (s.revision && source.x + source.y + source.z > 0) source = without_paradox(revised(*s.revision, source));
       if (s.dependence != evigrid::Dependence::independent) {
         hear(at, source, s);
       } else {
@@ -202,17 +221,23 @@ void ReferenceMap::sweep(const Declared& declared, const Pose2& pose, double rad
     }
 }
 
-/// What the rule makes of the reading where nothing is known; of that, mass on empty ∩ occupied is dropped.
-void ReferenceMap::hear(const evigrid::CellIndex& at, const Source& source, const Sensor& sensor) {
-  ++report_.cells_updated;
+/// What the rule makes of a source where nothing is known, without what that leaves on empty ∩ occupied.
+Source ReferenceMap::without_paradox(const Source& source) const {
   Belief<double, 3> nothing{}, said{};
   nothing[kUnknown] = 1;
   said[kEmpty] = source.x, said[kOccupied] = source.y, said[kUnknown] = source.v, said[kBoth] = source.z;
   const auto m = combine<double, 3>(params_.rule, cell_frame(), nothing, said, kTotalConflictBelow).m;
-  if (m[kEmpty] == 0 && m[kOccupied] == 0) return;
   const double sum = m[kEmpty] + m[kOccupied] + m[kUnknown];
   Source alone;
   alone.x = m[kEmpty] / sum, alone.y = m[kOccupied] / sum, alone.v = m[kUnknown] / sum;
+  return alone;
+}
+
+/// What the reading says by itself; several of one scan become one source when it ends.
+void ReferenceMap::hear(const evigrid::CellIndex& at, const Source& source, const Sensor& sensor) {
+  ++report_.cells_updated;
+  const Source alone = without_paradox(source);
+  if (alone.x == 0 && alone.y == 0) return;
   heard_[static_cast<std::size_t>(sensor.dependence)][at].push_back({alone, sensor.weight_exponent});
 }
 

@@ -70,6 +70,7 @@ class ReferenceMap {
   void sweep(const Declared&, const evigrid::Pose2&, double radius_cells, const Say&);
   void update(ReferenceCell&, const Source&, const evigrid::Sensor&);
   void hear(const evigrid::CellIndex&, const Source&, const evigrid::Sensor&);
+  [[nodiscard]] Source without_paradox(const Source&) const;
   void end_scan();
   void forget(ReferenceCell&, std::int64_t now_ns) const;
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,41 +15,11 @@ namespace {
 
 constexpr const char* kFormat = "evigrid revision 1";
 
-double sigmoid(double t) { return 1 / (1 + std::exp(-t)); }
-
 }  // namespace
 
 Gbba gbba(const ModelMass& m) { return {m.e, m.o, m.u, m.c}; }
 
-std::array<double, Network::kHidden> Network::hidden(const Gbba& in) const {
-  std::array<double, kHidden> out{};
-  for (std::size_t h = 0; h < kHidden; ++h) {
-    const double* const w = weight.data() + h * (kIn + 1);
-    double sum = w[kIn];
-    for (std::size_t i = 0; i < kIn; ++i) sum += w[i] * in[i];
-    out[h] = sigmoid(sum);
-  }
-  return out;
-}
-
-Gbba Network::raw(const std::array<double, kHidden>& hidden) const {
-  Gbba out{};
-  for (std::size_t o = 0; o < kOut; ++o) {
-    const double* const w = weight.data() + kHidden * (kIn + 1) + o * (kHidden + 1);
-    double sum = w[kHidden];
-    for (std::size_t h = 0; h < kHidden; ++h) sum += w[h] * hidden[h];
-    out[o] = sigmoid(sum);
-  }
-  return out;
-}
-
-Gbba revise(const Network& network, const Gbba& modelled) {
-  Gbba out = network.raw(network.hidden(modelled));
-  const double sum = out[0] + out[1] + out[2] + out[3];
-  if (!(sum > 0)) return {0, 0, 1, 0};  // every output underflowed: it says nothing
-  for (double& m : out) m /= sum;
-  return out;
-}
+Gbba revise(const Network& network, const Gbba& m) { return gbba(evigrid::revise(network, {m[0], m[1], m[2], m[3]})); }
 
 std::string to_text(const std::vector<Revision>& revisions) {
   nlohmann::ordered_json out{{"format", kFormat}, {"sensors", nlohmann::ordered_json::array()}};
@@ -91,6 +62,19 @@ std::vector<Revision> read_revisions(const std::string& path) {
     out.push_back(std::move(r));
   }
   return out;
+}
+
+void apply_revision(const std::vector<Revision>& all, const std::string& path, std::size_t index, Sensor& sensor) {
+  if (all.empty() || sensor.model == Model::beam) return;
+  const auto own = std::find_if(all.begin(), all.end(), [&](const Revision& r) { return r.sensor == index; });
+  if (own == all.end() && all.size() > 1)
+    throw InputError(fmt::format("--revision: {} holds no sensor {}", path, index));
+  const Revision& r = own == all.end() ? all.front() : *own;
+  if (r.model != name(sensor.model)) {
+    throw InputError(fmt::format("--revision: {} revises {} for sensor {}, which has the model {}", path, r.model,
+                                 index, name(sensor.model)));
+  }
+  sensor.revision = std::make_shared<const RevisionNetwork>(r.network);
 }
 
 }  // namespace evigrid::driver

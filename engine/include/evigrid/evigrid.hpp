@@ -11,6 +11,7 @@
 #include "evigrid/merge.hpp"
 #include "evigrid/readout.hpp"
 #include "evigrid/revisable.hpp"
+#include "evigrid/revision.hpp"
 #include "evigrid/scan.hpp"
 #include "evigrid/sensor.hpp"
 #include "evigrid/types.hpp"

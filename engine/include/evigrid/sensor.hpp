@@ -3,6 +3,7 @@
 // cone; a laser scanner is one sensor with many beams. Every field, its unit, range and source: engine/src/params/.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -77,6 +78,8 @@ enum class Dependence : std::uint8_t {
 std::string_view name(Dependence) noexcept;
 std::optional<Dependence> dependence_from_name(std::string_view) noexcept;
 
+struct RevisionNetwork;  // evigrid/revision.hpp
+
 struct Sensor {
   Model model = Model::li2014;
   Pose2 T_robot_sensor{};           ///< mount; a cone looks along its x axis
@@ -96,6 +99,9 @@ struct Sensor {
   /// the cell after the scan's independent readings; mass on empty ∩ occupied is given up before.
   Dependence dependence = Dependence::independent;
   double weight_exponent = 1;  ///< γ in (0, 1] of weighted: 1 is Dempster's rule within the scan, 1/n the mean of n
+  /// A learned revision of what a model of masses says where it says anything, after the discounts, which it replaces: a
+  /// trained sensor has a reliability of 1. In maps whose cells hold masses only, of cones; an unfused, slower path.
+  std::shared_ptr<const RevisionNetwork> revision{};
   int beams = 1;               ///< number of ranges in one reading; > 1 only for a fan
   double first_beam_rad = 0;   ///< bearing of beam 0 in S, counter-clockwise
   double beam_step_rad = 0;    ///< bearing from one beam to the next

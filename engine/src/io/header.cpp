@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "evigrid/revision.hpp"
+
 namespace evigrid::io {
 namespace {
 
@@ -120,6 +122,28 @@ bool read(std::string_view text, T& value) {
   }
 }
 
+void write_revision(std::string& out, const RevisionNetwork& network) {
+  out += "revision=";
+  std::array<char, 40> text;
+  for (std::size_t i = 0; i < network.weight.size(); ++i) {
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), network.weight[i]).ptr;
+    out.append(i > 0 ? "," : "").append(text.data(), end);
+  }
+  out += '\n';
+}
+
+bool read_revision(std::string_view list, std::shared_ptr<const RevisionNetwork>& into) {
+  auto network = std::make_shared<RevisionNetwork>();
+  for (std::size_t i = 0; i < network->weight.size(); ++i) {
+    const std::size_t comma = list.find(',');
+    if ((comma == std::string_view::npos) != (i + 1 == network->weight.size())) return false;
+    if (!read(list.substr(0, comma), network->weight[i])) return false;
+    list = comma == std::string_view::npos ? std::string_view{} : list.substr(comma + 1);
+  }
+  into = std::move(network);
+  return true;
+}
+
 std::vector<std::string> split(std::string_view list) {
   std::vector<std::string> out;
   while (!list.empty()) {
@@ -148,6 +172,7 @@ std::string header_text(const MapFileInfo& info) {
   for (const Sensor& sensor : info.sensors) {
     out.append(kSensor).push_back('\n');
     each_field(sensor, line);
+    if (sensor.revision) write_revision(out, *sensor.revision);
   }
   return out;
 }
@@ -172,7 +197,10 @@ MapFileInfo parse_header(std::string_view text) {
       known = true;
       good = read(value, target);
     };
-    if (!info.sensors.empty()) {
+    if (!info.sensors.empty() && key == "revision") {
+      known = true;
+      good = read_revision(value, info.sensors.back().revision);
+    } else if (!info.sensors.empty()) {
       each_field(info.sensors.back(), match);
     } else if (key == "planes") {
       info.planes = split(value);

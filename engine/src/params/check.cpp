@@ -6,6 +6,7 @@
 #include <span>
 
 #include "evigrid/map.hpp"
+#include "evigrid/revision.hpp"
 #include "grid/cell_layout.hpp"
 #include "model_rows.hpp"
 #include "params/table.hpp"
@@ -54,6 +55,15 @@ std::vector<ParamError> check(const Sensor& s) {
   if (s.dependence != Dependence::weighted && s.weight_exponent != 1) {
     errors.push_back({"sensor.weight_exponent", "is of the dependence weighted alone"});
   }
+  if (s.revision) {
+    if (s.model == Model::beam || model_row(s.model).says != Says::masses)
+      errors.push_back({"sensor.revision", "is for cones of masses, not for " + std::string(name(s.model))});
+    for (const double w : s.revision->weight) {
+      if (std::fabs(w) <= RevisionNetwork::kMostWeight) continue;
+      errors.push_back({"sensor.revision", "has the weight " + number(w) + ", must be within ±1e100"});
+      break;
+    }
+  }
   if (s.model != Model::beam && s.beams != 1) errors.push_back({"sensor.beams", "must be 1 for a cone"});
   return errors;
 }
@@ -82,6 +92,9 @@ std::vector<ParamError> check_pair(Rule rule, const Sensor& s) {
   if (why.empty() && s.dependence != Dependence::independent && !state_is_masses(rule)) {
     return {{"sensor.dependence", std::string(name(s.dependence)) + " cannot be with the rule " +
                                       std::string(name(rule)) + ": its cells hold no masses"}};
+  }
+  if (why.empty() && s.revision && !state_is_masses(rule)) {
+    return {{"sensor.revision", "cannot be with the rule " + std::string(name(rule)) + ": its cells hold no masses"}};
   }
   if (why.empty()) return {};
   return {{"sensor.model",

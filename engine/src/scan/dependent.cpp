@@ -20,6 +20,11 @@ double weight_of(float x, float v) {
   return kernels::portable_log(1 + static_cast<double>(x) / std::max(static_cast<double>(v), kLeastUnknown));
 }
 
+/// Whether a cell's first reading is all that counts.
+bool first_alone(Dependence policy) {
+  return policy == Dependence::once_per_scan || policy == Dependence::independent;
+}
+
 }  // namespace
 
 void DependentReadings::add(const Sensor& s, float* micro, const float* heard) {
@@ -37,7 +42,7 @@ void DependentReadings::add(const Sensor& s, float* micro, const float* heard) {
       const float sum = (e[i] + o[i]) + u[i];  // what it said of empty ∩ occupied is dropped
       t.first[0][i] = e[i] / sum, t.first[1][i] = o[i] / sum, t.first[2][i] = u[i] / sum;
     }
-    if (policy_ == Dependence::once_per_scan) continue;
+    if (first_alone(policy_)) continue;
     for (int side = 0; side < 2; ++side) {
       const double l = weight_of(side == 0 ? e[i] : o[i], u[i]);
       double& all = t.weight[side][i];
@@ -50,7 +55,7 @@ void DependentReadings::add(const Sensor& s, float* micro, const float* heard) {
 bool DependentReadings::source_of(Dependence policy, const Told& t, int i, float* x, float* y, float* v) {
   *x = 0, *y = 0, *v = 1;
   if (t.readings[i] == 0) return false;
-  if (policy == Dependence::once_per_scan || (policy == Dependence::cautious && t.readings[i] == 1)) {
+  if (first_alone(policy) || (policy == Dependence::cautious && t.readings[i] == 1)) {
     *x = t.first[0][i], *y = t.first[1][i], *v = t.first[2][i];
     return true;
   }
@@ -107,8 +112,7 @@ void DependentReadings::fuse(const MapParams& params, const TileStore& store, ke
   place_.clear();
 }
 
-float* BlankMicros::blank(const TileStore& store, std::size_t count) {
-  const auto& planes = store.layout().planes;
+float* BlankMicros::blank(const std::vector<Plane>& planes, std::size_t count) {
   lines_.resize(count * planes.size());
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     std::fill_n(lines_[i].cell, kCells, planes[i % planes.size()].vacuous);

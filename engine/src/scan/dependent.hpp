@@ -12,7 +12,8 @@
 
 namespace evigrid {
 
-/// Of one worker and one policy: what a scan's readings say together.
+/// Of one worker and one policy: what a scan's readings say together. Of independent ones (with a learned revision,
+/// scan/revised.hpp): what a single reading says.
 class DependentReadings {
  public:
   /// What the kernel left in `heard`, a micro-tile of `planes` that had heard nothing, joins what was said of `micro`.
@@ -45,7 +46,7 @@ class DependentReadings {
 class BlankMicros {
  public:
   /// `count` of them side by side, each plane as nothing was ever said.
-  float* blank(const TileStore&, std::size_t count);
+  float* blank(const std::vector<Plane>& planes, std::size_t count);
 
  private:
   struct alignas(64) Line {
