@@ -42,7 +42,7 @@ void add_compare(CLI::App& app) {
   add_mapping_options(*command, o.mapping);
   command->remove_option(command->get_option("--rule"));
   command->remove_option(command->get_option("--model"));
-  for (const char* single : {"--layers", "--costmap", "--pgm-mode"})
+  for (const char* single : {"--layers", "--costmap", "--pgm-mode", "--revision"})
     command->remove_option(command->get_option(single));
   command
       ->add_option("--rules", args->rules, "comma-separated, or all (one of those that coincide): " + map_rule_names())
