@@ -54,7 +54,7 @@ function(evigrid_pkg_config library description cflags private)
   install(FILES ${PROJECT_BINARY_DIR}/${library}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endfunction()
 evigrid_pkg_config(evigrid_engine "Evidential occupancy grids" "-std=c++20"
-  "-levigrid_kernels -lhwy -ltbb -lzstd -fopenmp -lpthread")
+  "-levigrid_kernels ${EVIGRID_CUDA_LIBS} -lhwy -ltbb -lzstd -fopenmp -lpthread")
 if(TARGET evigrid_raycast)
   evigrid_pkg_config(evigrid_raycast "Sonar cones and lasers cast into flat worlds" "-std=c++20"
     "-lembree3 -lhwy -ltbb -lpthread")
