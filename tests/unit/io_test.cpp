@@ -17,7 +17,7 @@ namespace evigrid {
 namespace {
 
 // A field added to these structures is to be saved too: engine/src/io/header.cpp lists them.
-static_assert(sizeof(Sensor) == 360 && sizeof(MapParams) == 64, "list the new field in engine/src/io/header.cpp");
+static_assert(sizeof(Sensor) == 376 && sizeof(MapParams) == 64, "list the new field in engine/src/io/header.cpp");
 
 std::string bytes_of(const Map& map) {
   std::ostringstream out;
