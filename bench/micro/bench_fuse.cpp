@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fused cones: 24 sonars a scan, one thread, cells counted. items = cells. `policies/…`: the same drive with readings
-// that are no distinct evidence, in a map that forgets, and with a learned revision.
+// Fused cones: 24 sonars a scan, one thread, cells counted. items = cells.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -46,49 +45,5 @@ void ring(benchmark::State& state, Model model, Rule rule, Kernel kernel) {
 EVIGRID_RING(li2014, pcr5);
 EVIGRID_RING(li2014, germ_pcr2);
 EVIGRID_RING(hughes1992, dempster);
-
-struct Policy {
-  Dependence dependence = Dependence::independent;
-  double weight_exponent = 1, decay_s = 0;
-  bool revised = false;
-};
-
-/// A ring of 24 sonars whose cones overlap twofold, 10 scans a second, li2014 and PCR5.
-void policies(benchmark::State& state, Policy policy) {
-  Map map({.rule = Rule::pcr5, .decay_s = policy.decay_s}, make_serial_executor());
-  auto network = std::make_shared<RevisionNetwork>();
-  for (std::size_t i = 0; i < network->weight.size(); ++i)
-    network->weight[i] = 3 * std::sin(1 + 7.3 * static_cast<double>(i));
-  std::vector<float> ranges(24);
-  std::vector<Reading> readings;
-  for (int i = 0; i < 24; ++i) {
-    Sensor s;
-    s.model = Model::li2014;
-    s.reliability = 0.9;
-    s.aperture_rad = 30 * M_PI / 180;
-    s.T_robot_sensor = {0.2 * std::cos(i * M_PI / 12), 0.2 * std::sin(i * M_PI / 12), i * M_PI / 12};
-    s.dependence = policy.dependence;
-    s.weight_exponent = policy.weight_exponent;
-    if (policy.revised) s.revision = network;
-    readings.push_back({map.add(s), {&ranges[static_cast<std::size_t>(i)], 1}});
-  }
-  std::uint64_t cells = 0;
-  int step = 0;
-  for (auto _ : state) {
-    for (int i = 0; i < 24; ++i)
-      ranges[static_cast<std::size_t>(i)] = 1 + 0.1f * static_cast<float>((i * 37 + step * 11) % 35);
-    const Pose2 pose{5 + 0.01 * (step % 500), 5 + 0.007 * (step % 300), 0.1 * step};
-    cells += map.integrate(Scan{step * 100'000'000LL, pose, readings}).cells_updated;
-    ++step;
-  }
-  state.SetItemsProcessed(static_cast<std::int64_t>(cells));
-}
-BENCHMARK_CAPTURE(policies, independent, Policy{});
-BENCHMARK_CAPTURE(policies, cautious, Policy{Dependence::cautious});
-BENCHMARK_CAPTURE(policies, once_per_scan, Policy{Dependence::once_per_scan});
-BENCHMARK_CAPTURE(policies, weighted, Policy{Dependence::weighted, 0.5});
-BENCHMARK_CAPTURE(policies, decay, Policy{.decay_s = 10});
-BENCHMARK_CAPTURE(policies, cautious_decay, Policy{Dependence::cautious, 1, 10});
-BENCHMARK_CAPTURE(policies, revised, Policy{.revised = true});
 
 }  // namespace

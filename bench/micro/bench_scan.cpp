@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the time of one scan of sonars depends on, and what it does not: the extent of the map, the number of sensors,
-// threads from how many cones on, forgetting, and what readings of one scan are to one another. li2014 + PCR5, warm.
+// threads from how many cones on, forgetting, a learned revision, and what readings of one scan are to one another.
+// li2014 + PCR5, warm.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -20,13 +21,14 @@ struct Ring {
   std::vector<Reading> readings;
 
   Ring(const MapParams& params, int sonars, std::unique_ptr<Executor> executor,
-       Dependence dependence = Dependence::independent)
+       Dependence dependence = Dependence::independent, std::shared_ptr<const RevisionNetwork> revision = nullptr)
       : map(params, std::move(executor)), ranges(static_cast<std::size_t>(sonars)) {
     for (int i = 0; i < sonars; ++i) {
       Sensor s;
       s.aperture_rad = 15 * M_PI / 180;
       s.dependence = dependence;
       if (dependence == Dependence::weighted) s.weight_exponent = 0.5;
+      s.revision = revision;
       const double yaw = i * 2 * M_PI / sonars;
       s.T_robot_sensor = {0.2 * std::cos(yaw), 0.2 * std::sin(yaw), yaw};
       readings.push_back({map.add(s), {&ranges[static_cast<std::size_t>(i)], 1}});
@@ -83,6 +85,15 @@ BENCHMARK_CAPTURE(dependence, independent, Dependence::independent);
 BENCHMARK_CAPTURE(dependence, cautious, Dependence::cautious);
 BENCHMARK_CAPTURE(dependence, once_per_scan, Dependence::once_per_scan);
 BENCHMARK_CAPTURE(dependence, weighted, Dependence::weighted);
+
+void revised(benchmark::State& state) {
+  auto network = std::make_shared<RevisionNetwork>();
+  for (std::size_t i = 0; i < network->weight.size(); ++i) {
+    network->weight[i] = 3 * std::sin(1 + 7.3 * static_cast<double>(i));
+  }
+  Ring({}, 24, make_serial_executor(), Dependence::independent, network).run(state);
+}
+BENCHMARK(revised);
 
 void forgetting(benchmark::State& state) {
   Ring({.decay_s = static_cast<double>(state.range(0))}, 24, make_serial_executor()).run(state);
