@@ -60,7 +60,7 @@ TEST(Revision, AFileHoldsWeightsOfSaturatedNeuronsToo) {
   Revision r{0, "li2014", {}};
   r.network.weight[0] = 3e9, r.network.weight[30] = -Network::kMostWeight;
   EXPECT_EQ(read_revisions(dir.write("r.json", to_text({r})))[0].network.weight, r.network.weight);
-  for (const double m : revise(r.network, {1, 0, 0, 0})) EXPECT_TRUE(m >= 0 && m <= 1) << m;
+  for (const double m : revise(r.network, Gbba{1, 0, 0, 0})) EXPECT_TRUE(m >= 0 && m <= 1) << m;
   r.network.weight[0] = 1e101;
   const std::string beyond = dir.write("beyond.json", to_text({r}));
   EXPECT_THROW((void)read_revisions(beyond), InputError);
