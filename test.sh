@@ -6,7 +6,8 @@ cd "$(dirname "$0")"
 source cmake/packages.sh
 evigrid_install "${EVIGRID_PACKAGES[@]}" "${EVIGRID_TEST_PACKAGES[@]}"
 cuda=()  # compiled where nvcc 12 or later is, for one architecture; it runs where a GPU is
-if PATH="$PATH:/usr/local/cuda/bin" nvcc --version 2>/dev/null | grep -qE 'release (1[2-9]|[2-9][0-9])\.'; then
+nvcc=$(PATH="$PATH:/usr/local/cuda/bin" nvcc --version 2>/dev/null || true)
+if [[ $nvcc =~ release\ (1[2-9]|[2-9][0-9])\. ]]; then
   cuda=(-DEVIGRID_CUDA=ON -DEVIGRID_CUDA_ARCHITECTURES=90)
 fi
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=ON -DEVIGRID_BUILD_BENCH=ON \

@@ -122,6 +122,12 @@ EVIGRID_C_API evigrid_status evigrid_map_undo(evigrid_map *map, int64_t stamp_ns
                                               const evigrid_reading *readings, size_t count, evigrid_report *report);
 /** Lets time pass without a scan, in maps that forget. */
 EVIGRID_C_API evigrid_status evigrid_map_advance_to(evigrid_map *map, int64_t stamp_ns);
+/** Beyond memory_cap_bytes the tiles that changed longest ago go to a file without a name in that directory, instead
+ *  of EVIGRID_LIMIT; no bit of the map changes. EVIGRID_FILE when it cannot be made, and from the calls that need room
+ *  when it cannot be written. */
+EVIGRID_C_API evigrid_status evigrid_map_page_to(evigrid_map *map, const char *directory);
+/** Bytes of tiles in that file; evigrid_map_memory has the others. */
+EVIGRID_C_API evigrid_status evigrid_map_paged(const evigrid_map *map, size_t *bytes);
 EVIGRID_C_API evigrid_status evigrid_map_clear(evigrid_map *map);
 EVIGRID_C_API evigrid_status evigrid_map_clear_rect(evigrid_map *map, evigrid_rect rect);
 /** Rolling window; an empty rectangle: none. */

@@ -5,6 +5,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "evigrid.h"
@@ -49,6 +50,8 @@ evigrid_status guarded(F&& f) noexcept {
     return fail(EVIGRID_LIMIT, e.what());
   } catch (const std::logic_error& e) {
     return fail(EVIGRID_UNSUPPORTED, e.what());
+  } catch (const std::system_error& e) {  // of a page file
+    return fail(EVIGRID_FILE, e.what());
   } catch (const std::bad_alloc&) {
     return fail(EVIGRID_MEMORY, "the system gave no memory");
   } catch (const std::exception& e) {

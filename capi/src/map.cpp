@@ -74,6 +74,12 @@ evigrid_status evigrid_map_undo(evigrid_map* map, int64_t stamp_ns, evigrid_pose
 evigrid_status evigrid_map_advance_to(evigrid_map* map, int64_t stamp_ns) {
   return guarded([&] { need(map, "map").map.advance_to(stamp_ns); });
 }
+evigrid_status evigrid_map_page_to(evigrid_map* map, const char* directory) {
+  return guarded([&] { need(map, "map").map.page_to(&need(directory, "directory")); });
+}
+evigrid_status evigrid_map_paged(const evigrid_map* map, size_t* bytes) {
+  return guarded([&] { need(bytes, "bytes") = need(map, "map").map.paged_bytes(); });
+}
 evigrid_status evigrid_map_clear(evigrid_map* map) {
   return guarded([&] { need(map, "map").map.clear(); });
 }

@@ -225,7 +225,8 @@ void add_cycle(CLI::App& app) {
   add("--replay", o.replay, "fuse such a file instead");
   add("--part", o.part, "of --replay: all, fused, or late (the fused, then the skipped)")->capture_default_str();
   command->add_flag("--save-map", o.save_map, "also write map.evigrid into -o");
-  add("--memory-mb", o.memory_mb, "cap of the map")->capture_default_str();
+  add("--memory-mb", o.memory_mb, "cap of the map, MiB of its tiles")->capture_default_str();
+  add("--page-dir", o.page_dir, "beyond that cap, tiles that changed longest ago go to a file in this folder");
   add("--threads", o.threads, "worker threads; 0: as many as the machine has")->capture_default_str();
   add("--executor", o.executor, "serial, tbb or openmp; the map is the same")->capture_default_str();
   add("--kernel", o.kernel, "auto, scalar, avx2 or avx512; the map is the same")->capture_default_str();

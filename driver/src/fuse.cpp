@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <system_error>
 
 #include "error.hpp"
 #include "map_journal.hpp"
@@ -53,6 +54,7 @@ Plan make_plan(const MappingOptions& o) {
     }
   }
   if (const auto errors = check(plan.params); !errors.empty()) throw InputError(listed(errors));
+  plan.params.memory_cap_bytes = memory_cap(o.memory_mb);
   if (o.max_image_mb <= 0) throw InputError(fmt::format("--max-image-mb: {} is not above 0", o.max_image_mb));
   parse_pgm_mode(o.pgm_mode);
   plan.executor = parse_executor(o.executor, o.threads);
@@ -108,6 +110,7 @@ Fused fuse(const Log& log, const MappingOptions& options, Plan plan, const Journ
   }
 
   Fused out{Map(plan.params, plan.executor), {}, 0, {}, plan.executor};
+  page_to(out.map, options.page_dir);
   std::vector<SensorId> ids;
   for (const Sensor& sensor : sensors) {
     try {
@@ -138,8 +141,9 @@ Fused fuse(const Log& log, const MappingOptions& options, Plan plan, const Journ
     try {
       out.report += out.map.integrate(batch);
     } catch (const std::length_error& full) {
-      throw InputError(fmt::format(
-          "the map grows beyond its memory cap: {}; a larger --cell or a shorter --max-range helps", full.what()));
+      throw InputError(fmt::format("the map grows beyond its memory cap: {}; {}", full.what(), kMoreRoom));
+    } catch (const std::system_error& disk) {
+      throw InputError(fmt::format("--page-dir: {}", disk.what()));
     }
     out.fusion_s += seconds_since(start);
     progress.show(at + batch.size(), scans.size());

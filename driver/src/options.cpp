@@ -108,6 +108,22 @@ std::string describe_outputs() {
          "253 is left to inflation. Free: BetP < 0.196; occupied: BetP > 0.65; no information: m(unknown) > 0.9.\n\n";
 }
 
+std::size_t memory_cap(std::int64_t memory_mb) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 24;
+  if (memory_mb < 1 || memory_mb > kMost)
+    throw InputError(fmt::format("--memory-mb: {} is not within [1, {}]", memory_mb, kMost));
+  return static_cast<std::size_t>(memory_mb) << 20;
+}
+
+void page_to(Map& map, const std::string& page_dir) {
+  if (page_dir.empty()) return;
+  try {
+    map.page_to(page_dir);
+  } catch (const std::exception& bad) {
+    throw InputError(fmt::format("--page-dir: {}", bad.what()));
+  }
+}
+
 void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("-o,--out", o.out_dir, "output folder; made when missing")->required();
   command.add_option("--rule", o.rule, "combination rule: " + map_rule_names())->capture_default_str();
@@ -159,6 +175,10 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("--pgm-mode", o.pgm_mode, "how map.pgm holds BetP for ROS map_server: trinary, scale or raw")
       ->capture_default_str();
   command.add_flag("--costmap", o.costmap, "also write costmap.npy, costmap.pgm and occupancy.npy");
+  command.add_option("--memory-mb", o.memory_mb, "cap of the map, MiB of its tiles")->capture_default_str();
+  command.add_option("--page-dir", o.page_dir,
+                     "beyond that cap, tiles that changed longest ago go to a file in this\nfolder, which has no name "
+                     "and goes with the process; the map is the same");
   command.add_option("--max-image-mb", o.max_image_mb, "refuse masses and pictures larger than this")
       ->capture_default_str();
 }

@@ -2,12 +2,14 @@
 // The options that several commands share, as the user gave them, and their translation into the engine's words.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "evigrid/executor.hpp"
+#include "evigrid/map.hpp"
 #include "evigrid/types.hpp"
 
 namespace evigrid::driver {
@@ -23,7 +25,7 @@ struct MappingOptions {
   std::string dependence;               ///< of a scan's readings; empty: the scene's, or independent
   std::string revision;                 ///< a file of `evigrid train`; empty: none
   std::string filter;                   ///< of readings; empty: the scene's, or none
-  std::vector<double> contextual;  ///< empty, or reliability if empty and if occupied
+  std::vector<double> contextual;       ///< empty, or reliability if empty and if occupied
   bool clear_no_return = false;
   std::string bayes_likelihood = "betp";
   std::vector<double> bayes_limits;  ///< empty, or least and most P(occupied)
@@ -32,10 +34,20 @@ struct MappingOptions {
   std::string kernel = "auto";
   std::string json;  ///< empty: only DIR/report.json
   int max_image_mb = 2048;
+  std::int64_t memory_mb = 4096;     ///< cap of the map
+  std::string page_dir;              ///< where cold tiles go beyond it; empty: nowhere
   std::string layers;                ///< looks to draw besides map.png; "all"
   std::string pgm_mode = "trinary";  ///< of map.pgm
   bool costmap = false;
 };
+
+/// Throws InputError when --memory-mb is not a size.
+std::size_t memory_cap(std::int64_t memory_mb);
+/// --page-dir, empty: none. Throws InputError naming it.
+void page_to(Map& map, const std::string& page_dir);
+/// What to do when --memory-mb is too little, for the end of a message.
+inline constexpr const char* kMoreRoom =
+    "more of --memory-mb, a --page-dir, a larger --cell or a shorter --max-range helps";
 
 void add_mapping_options(CLI::App& command, MappingOptions& options);
 /// What map and run write into DIR, for their --help.

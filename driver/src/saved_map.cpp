@@ -19,6 +19,7 @@ SavedMap open_saved_map(const std::string& path, std::shared_ptr<Executor> execu
     MapFileInfo info = inspect(file);
     // The file may be anyone's: what it says of memory is not believed.
     LoadOptions options{.executor = std::move(executor), .memory_cap_bytes = MapParams{}.memory_cap_bytes};
+    if (info.memory_bytes > *options.memory_cap_bytes) options.page_directory = fs::temp_directory_path();
     if (!region_m.empty()) options.region = cells_of(region_m, info.params.cell_m);
     std::uint64_t bytes_read = 0;
     options.bytes_read = &bytes_read;

@@ -68,6 +68,7 @@ Json make_report(const Log& log, const Fused& f, const MappingOptions& o, const 
   r["tiles_per_worker"] = std::vector<std::uint64_t>(tiles.begin(), tiles.end());
   r["tiles"] = f.map.tiles();
   r["memory_bytes"] = f.map.memory_bytes();
+  if (f.map.paged_bytes() > 0) r["paged_bytes"] = f.map.paged_bytes();
   Json sensors = Json::array();
   const auto declared = f.map.sensors();
   for (std::size_t i = 0; i < declared.size(); ++i) {

@@ -128,6 +128,9 @@ MapView Map::view() {
                                                    ViewState::Facts{m.params, m.sensors, m.changes.losses()}));
 }
 
+void Map::page_to(const std::filesystem::path& directory) { impl_->store.page_to(directory); }
+std::size_t Map::paged_bytes() const noexcept { return impl_->store.paged_bytes(); }
+
 void Map::clear() {
   impl_->store.clear();
   if (impl_->device) impl_->device->forget();

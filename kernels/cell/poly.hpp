@@ -86,7 +86,7 @@ EVIGRID_FN V cubic(const float (&c)[4], const V& x) {
   return mul_add(mul_add(mul_add(V(c[3]), x, V(c[2])), x, V(c[1])), x, V(c[0]));
 }
 
-/// Angle of (x, y) in (−π, π], error below 5.1e-7 rad: finds a candidate beam, exact tests decide (fan_exact.hpp).
+/// Angle of (x, y) in (−π, π], error at most 5.19e-7 rad: finds a candidate beam, exact tests decide (fan_exact.hpp).
 template <class V>
 EVIGRID_FN V coarse_angle(const V& x, const V& y) {
   const V zero(0.0f);

@@ -182,8 +182,8 @@ void bind_map(py::module_& m) {
              return std::make_unique<SharedMap>(
                  Map(params_of(cell_m, rule, kernel, more), executor_of(executor, threads)));
            }),
-           py::arg("cell_m") = 0.05, py::arg("rule") = "pcr5", py::arg("kernel") = "auto",
-           py::arg("executor") = "tbb", py::arg("threads") = 0)
+           py::arg("cell_m") = 0.05, py::arg("rule") = "pcr5", py::arg("kernel") = "auto", py::arg("executor") = "tbb",
+           py::arg("threads") = 0)
       .def(
           "add", [](SharedMap& self, const Sensor& s) { return self.with([&](Map& map) { return map.add(s); }); },
           py::arg("sensor"), "Declares a sensor; its number.")
@@ -214,6 +214,12 @@ void bind_map(py::module_& m) {
             self.with([&](Map& map) { r ? map.clear(rect(*r)) : map.clear(); });
           },
           py::arg("rect") = py::none(), "All cells, or those of a rectangle, as never seen.")
+      .def(
+          "page_to",
+          [](SharedMap& self, const std::string& directory) { self.with([&](Map& map) { map.page_to(directory); }); },
+          py::arg("directory"),
+          "Beyond memory_cap_bytes the tiles that changed longest ago go to a file without a name in that directory,\n"
+          "instead of MemoryError; no bit of the map changes. OSError when the file cannot be made or written.")
       .def(
           "set_window",
           [](SharedMap& self, const std::optional<RectTuple>& r) {
@@ -269,6 +275,8 @@ void bind_map(py::module_& m) {
       .def_property_readonly(
           "kernel", [](SharedMap& self) { return self.with([](Map& map) { return std::string(map.kernel_name()); }); },
           "Which kernel really runs.")
+      .def_property_readonly("paged_bytes",
+                             [](SharedMap& self) { return self.with([](Map& map) { return map.paged_bytes(); }); })
       .def_property_readonly("memory_bytes",
                              [](SharedMap& self) { return self.with([](Map& map) { return map.memory_bytes(); }); })
       .def(
@@ -279,13 +287,18 @@ void bind_map(py::module_& m) {
           "The sensors that were added, in their order.");
   m.def(
       "load",
-      [](const std::string& path, const std::string& executor, int threads, std::optional<std::size_t> cap) {
-        const LoadOptions options{.executor = executor_of(executor, threads), .memory_cap_bytes = cap};
+      [](const std::string& path, const std::string& executor, int threads, std::optional<std::size_t> cap,
+         const std::optional<std::string>& page_to) {
+        LoadOptions options{.executor = executor_of(executor, threads), .memory_cap_bytes = cap};
+        if (page_to) options.page_directory = *page_to;
         const py::gil_scoped_release release;
         return std::make_unique<SharedMap>(load(path, options));
       },
       py::arg("path"), py::arg("executor") = "tbb", py::arg("threads") = 0, py::arg("memory_cap_bytes") = py::none(),
-      "A saved map, to the bit. Raises MapFileError for damage and for what is no map.");
+      py::arg("page_to") = py::none(),
+      "A saved map, to the bit; with page_to one larger than the cap, too. Raises MapFileError for damage and for "
+      "what\n"
+      "is no map.");
   bind_revisable(m);
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The compiled half of `import evigrid`.
+#include <system_error>
+
 #include "bind.hpp"
 
 namespace evigrid::python {
@@ -34,6 +36,8 @@ PYBIND11_MODULE(_evigrid, m) {
       PyErr_SetString(PyExc_MemoryError, e.what());
     } catch (const std::out_of_range& e) {
       PyErr_SetString(PyExc_IndexError, e.what());
+    } catch (const std::system_error& e) {  // of a page file
+      PyErr_SetString(PyExc_OSError, e.what());
     } catch (const std::logic_error& e) {
       PyErr_SetString(PyExc_RuntimeError, e.what());
     }

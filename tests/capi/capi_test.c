@@ -205,6 +205,12 @@ static void maps_and_views(void) {
   OK(evigrid_map_memory(two, &bytes, &tiles));
   CHECK(cells > 1000 && tiles > before && bytes > 0);
   REFUSED(EVIGRID_INVALID, "reliability", evigrid_map_merge(two, view, apart, 2, &cells));
+  size_t paged = 1;
+  REFUSED(EVIGRID_FILE, "/no/such/folder", evigrid_map_page_to(two, "/no/such/folder"));
+  REFUSED(EVIGRID_INVALID, "directory", evigrid_map_page_to(two, NULL));
+  OK(evigrid_map_page_to(two, "/tmp"));
+  OK(evigrid_map_paged(two, &paged));
+  CHECK(paged == 0);
   evigrid_view_destroy(view);
   evigrid_map_destroy(back);
   evigrid_map_destroy(two);

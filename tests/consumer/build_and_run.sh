@@ -10,5 +10,6 @@ cmake --build "$build" >>"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
 "$build/robot"
 "$build/c_robot"
 # Which kind it really is; and the found package came from the prefix.
-if ldd "$build/robot" | grep -q 'libevigrid_engine'; then linked=shared; else linked=static; fi
+needs=$(ldd "$build/robot")  # whole first: a pipe that grep -q closes early fails under pipefail
+if [[ $needs == *libevigrid_engine* ]]; then linked=shared; else linked=static; fi
 [ "$linked" = "$kind" ] || { echo "asked for $kind, linked $linked"; exit 1; }

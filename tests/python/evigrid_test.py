@@ -50,6 +50,19 @@ class Arrays(unittest.TestCase):
         part = self.view.render("betp", (x + 3, y + 5, 7, 2))
         np.testing.assert_array_equal(part, betp[5:7, 3:10])
 
+    def test_a_map_larger_than_its_cap_is_the_same(self):
+        roomy, paged = evigrid.Map(), evigrid.Map(memory_cap_bytes=40 << 16)
+        with self.assertRaises(OSError):
+            paged.page_to("/no/such/folder")
+        paged.page_to(tempfile.gettempdir())
+        for m in (roomy, paged):
+            sonars = ring(m)
+            for k in range(12):
+                m.integrate(k, (30 * k, 0, 0.1 * k), {s: 3.5 for s in sonars})
+        self.assertGreater(paged.paged_bytes, 0)
+        self.assertLessEqual(paged.memory_bytes, 40 << 16)
+        self.assertEqual(paged.hash(), roomy.hash())
+
     def test_tiles_are_views_without_a_copy_and_outlive_all(self):
         tile = self.view.tiles()[0]
         names = self.view.plane_names

@@ -123,7 +123,8 @@ FleetPlan plan_fleet(const FleetOptions& o) {
   plan.params.rule = parse_map_rule(o.rule);
   plan.params.kernel = parse_kernel(o.kernel);
   plan.params.cell_m = o.cell_m;
-  plan.params.memory_cap_bytes = static_cast<std::size_t>(o.memory_mb) << 20;
+  plan.params.memory_cap_bytes = memory_cap(o.memory_mb);
+  plan.page_dir = o.page_dir;
   if (const auto errors = check(plan.params); !errors.empty())
     throw InputError(fmt::format("--cell: {} {}", errors.front().field, errors.front().reason));
   if (!o.model.empty() && parse_model(o.model) == Model::beam) throw InputError("--model: beam is for lasers");

@@ -36,6 +36,7 @@ struct FleetOptions {
   std::string log, replay, part = "all";
   bool save_map = false;
   std::int64_t memory_mb = 8192;  ///< of the map
+  std::string page_dir;           ///< where cold tiles go beyond it; empty: nowhere
   int threads = 0;
   std::string executor = "tbb", kernel = "auto";
   std::string out_dir, json;
@@ -44,6 +45,7 @@ struct FleetOptions {
 /// The options in the words of engine and scenes.
 struct FleetPlan {
   MapParams params;
+  std::string page_dir;
   std::shared_ptr<Executor> executor;
   Policy policy = Policy::none;
   scenes::Scene robot;  ///< its radius and sensors, as changed by the options

@@ -125,6 +125,7 @@ Json fleet_json(const FleetTrial& trial, const FleetWorld& world, bool hash) {
   r["readings_refused"] = refused(total);
   r["tiles"] = trial.map.tiles();
   r["memory_bytes"] = trial.map.memory_bytes();
+  if (trial.map.paged_bytes() > 0) r["paged_bytes"] = trial.map.paged_bytes();
   r["costmap_bytes"] = trial.costs.memory_bytes();
   r["process_peak_bytes"] = peak_bytes();
   r["building_s"] = world.made_s;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "error.hpp"
@@ -61,7 +62,10 @@ class Work : public CycleWork {
     try {
       return trial_.map.integrate(views_.of(scans));
     } catch (const std::length_error& full) {
-      throw InputError(fmt::format("--memory-mb: {}; fewer --robots or --cycles need less", full.what()));
+      throw InputError(
+          fmt::format("--memory-mb: {}; fewer --robots or --cycles need less, --page-dir takes more", full.what()));
+    } catch (const std::system_error& disk) {
+      throw InputError(fmt::format("--page-dir: {}", disk.what()));
     }
   }
 
@@ -94,6 +98,7 @@ class Work : public CycleWork {
 
 Map map_of(const FleetPlan& plan, std::vector<std::string>& models) {
   Map map(plan.params, plan.executor);
+  page_to(map, plan.page_dir);
   for (const Sensor& s : sensors_of(plan.robot)) {
     try {
       map.add(s);

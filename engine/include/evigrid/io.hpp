@@ -48,6 +48,8 @@ struct LoadOptions {
   std::optional<Kernel> kernel{};        ///< else the saved one, or the widest where that cannot run
   /// Checked before anything is allocated, and then the map's cap; else the saved one. Give it for files of strangers.
   std::optional<std::size_t> memory_cap_bytes{};
+  /// As Map::page_to: a map larger than the cap is then loaded nevertheless, most of it into the page file.
+  std::optional<std::filesystem::path> page_directory{};
   /// Only these cells: the map has no others, as if all around them had been cleared. The tiles that meet the region
   /// are read and proved by their checksums, the rest of the file is not; the hash of the whole cannot be. The cap is
   /// held against those tiles alone.

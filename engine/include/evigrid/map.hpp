@@ -5,6 +5,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,7 +42,7 @@ struct MapParams {
   bool keep_last_conflict = false;    ///< and one with k of the last update; only beside keep_conflict
   BayesParams bayes{};
   std::size_t memory_cap_bytes = std::size_t{4}
-                                 << 30;  ///< of the tiles; integrate() throws std::length_error beyond it
+                                 << 30;  ///< of the tiles; integrate() throws std::length_error beyond it (or page_to)
   /// Filter of false reflections (Li et al. 2014): of three neighbours of a ring, in the order of their bearings, the
   /// third reading stays when |d3 − d2| < |d1 − d2| + this, m. Below 0: off.
   double false_reflection_m = -1;
@@ -135,6 +136,15 @@ class Map {
   /// The map as it is now, for ever, for any number of threads (view.hpp). Costs what changed since the view before;
   /// afterwards each tile is copied once when it is first written again, as long as a view lives.
   [[nodiscard]] MapView view();
+
+  /// Paging: when the cap is reached, the tiles that changed longest ago go to a file in that directory instead of an
+  /// error. They are read there by everybody, views among them, and come back when something writes to them; no bit
+  /// changes. The file has no name and goes with the process. What one call writes to must fit under the cap. Throws
+  /// std::system_error naming the directory where the file cannot be made (or, from the calls that need room,
+  /// written: before any cell is changed), std::logic_error when tiles are in such a file already. As with swap, a
+  /// disk that fails to give back what it holds ends the process (SIGBUS). Linux.
+  void page_to(const std::filesystem::path& directory);
+  [[nodiscard]] std::size_t paged_bytes() const noexcept;  ///< of tiles in the page file; memory_bytes() has the others
 
   void clear();
   /// The cells of rect are as never seen, protected or not; tiles without any other cell are given back.

@@ -29,6 +29,16 @@ void TileAges::retire(TileBuffer* buffer) noexcept {
   }
 }
 
+std::size_t TileAges::page_out_retired(std::size_t most) {
+  const std::lock_guard lock(mutex_);
+  std::size_t n = 0;
+  for (TileBuffer* b : retired_) {
+    if (n == most) break;
+    n += static_cast<std::size_t>(memory_.page_out(b->room));
+  }
+  return n;
+}
+
 std::uint64_t TileAges::open_view() {
   const std::lock_guard lock(mutex_);
   views_.push_back(now_);
@@ -47,9 +57,19 @@ void TileAges::close_view(std::uint64_t age) noexcept {
   });
 }
 
-std::size_t TileAges::in_use() const {
+TileAges::Count TileAges::count() const {
   const std::lock_guard lock(mutex_);
-  return memory_.in_use();
+  return {memory_.in_use() - memory_.paged(), memory_.paged()};
+}
+
+void TileAges::page_to(const std::filesystem::path& directory) {
+  const std::lock_guard lock(mutex_);
+  memory_.page_to(directory);
+}
+
+bool TileAges::page_out(TileBuffer* buffer) {
+  const std::lock_guard lock(mutex_);
+  return memory_.page_out(buffer->room);
 }
 
 bool TileAges::seen_between(std::uint64_t born, std::uint64_t died) const noexcept {

@@ -29,12 +29,21 @@ class TileAges {
   TileBuffer* make();
   /// The map has it no longer.
   void retire(TileBuffer*) noexcept;
+  /// A file for cold tiles (tile_memory.hpp), and one of them put there: it can still be read by everybody.
+  void page_to(const std::filesystem::path& directory);
+  bool page_out(TileBuffer*);
+  /// Of those that only views see at most so many; answers how many.
+  std::size_t page_out_retired(std::size_t most);
   /// The age that a new view sees; the next one begins.
   std::uint64_t open_view();
 
   // Anybody's.
   void close_view(std::uint64_t age) noexcept;
-  [[nodiscard]] std::size_t in_use() const;  ///< buffers, those that only views see among them
+  /// Buffers, those that only views see among them: in memory, and in the page file.
+  struct Count {
+    std::size_t resident, paged;
+  };
+  [[nodiscard]] Count count() const;
 
  private:
   [[nodiscard]] bool seen_between(std::uint64_t born, std::uint64_t died) const noexcept;

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <new>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -13,7 +15,7 @@
 namespace evigrid {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{2} << 20;
+constexpr std::size_t kBlock = PageFile::kExtent;
 
 #ifdef __linux__
 /// Mapped, not allocated: free() may keep what it is given, munmap does not.
@@ -43,6 +45,7 @@ struct TileMemory::Block {
   float* base = nullptr;
   std::vector<std::uint32_t> free;  // places, taken from the end
   std::size_t places = 0;
+  std::uint64_t extent = PageFile::kNone;  // where in the page file, as soon as a tile was paged
 
   explicit Block(std::size_t tile_bytes) : free(kBlock / tile_bytes), places(free.size()) {
     std::iota(free.rbegin(), free.rend(), 0u);
@@ -58,7 +61,7 @@ TileMemory::~TileMemory() = default;
 
 TileMemory::Room TileMemory::take() {
   Room room;
-  if (open_.empty() && (in_use_ < kAlone || tile_bytes_ > kBlock / 4)) {
+  if (open_.empty() && ((in_use_ < kAlone && !file_) || tile_bytes_ > kBlock / 4)) {
     room.at = static_cast<float*>(std::aligned_alloc(64, tile_bytes_));
     if (room.at == nullptr) throw std::bad_alloc();
   } else {
@@ -78,8 +81,34 @@ TileMemory::Room TileMemory::take() {
   return room;
 }
 
+std::uint64_t TileMemory::place_in_file(const Room& room) const noexcept {
+  return room.block->extent + static_cast<std::uint64_t>(room.at - room.block->base) * sizeof(float);
+}
+
+void TileMemory::page_to(const std::filesystem::path& directory) {
+  if (!PageFile::possible(tile_bytes_))
+    throw std::invalid_argument("tiles of " + std::to_string(tile_bytes_) + " bytes cannot be paged here");
+  if (paged_ > 0) throw std::logic_error("there are tiles in a page file already");
+  auto file = std::make_unique<PageFile>(directory);
+  for (const auto& block : blocks_) block->extent = PageFile::kNone;
+  file_ = std::move(file);
+}
+
+bool TileMemory::page_out(Room& room) {
+  if (room.block == nullptr || room.paged) return false;
+  if (room.block->extent == PageFile::kNone) room.block->extent = file_->take_extent();
+  file_->page_out(room.at, tile_bytes_, place_in_file(room));
+  room.paged = true;
+  ++paged_;
+  return true;
+}
+
 void TileMemory::give_back(Room room) noexcept {
   --in_use_;
+  if (room.paged) {
+    --paged_;
+    if (!file_->take_back(room.at, tile_bytes_, place_in_file(room))) return;  // its place is lost, nothing else
+  }
   if (room.block == nullptr) {
     std::free(room.at);
   } else {
@@ -96,6 +125,7 @@ void TileMemory::give_back(Room room) noexcept {
 }
 
 void TileMemory::release(Block* block) noexcept {
+  if (block->extent != PageFile::kNone) file_->give_back_extent(block->extent);
   open_.erase(std::find(open_.begin(), open_.end(), block));
   blocks_.erase(std::find_if(blocks_.begin(), blocks_.end(), [&](const auto& b) { return b.get() == block; }));
 }

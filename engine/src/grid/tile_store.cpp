@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "grid/tile_store.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -29,10 +31,44 @@ std::vector<TileRef> TileStore::in_order() const {
   return out;
 }
 
-void TileStore::reserve(std::size_t more) const {
+void TileStore::page_to(const std::filesystem::path& directory) {
+  ages_->page_to(directory);
+  pages_ = true;
+}
+
+/// First what only views see, for it is never written again; then tiles that changed longest ago. So many at a time
+/// that looking for them costs little, and in the order of their places in memory, so that they are written one behind
+/// the other. Views read on where a tile was.
+void TileStore::page_out(std::size_t least) {
+  constexpr std::size_t kShare = 8;  // of what the cap holds
+  const std::size_t enough = std::max(least, cap_bytes_ / tile_bytes() / kShare);
+  const std::size_t old = ages_->page_out_retired(enough);
+  if (old >= enough) return;
+  std::vector<Tile*> cold;
+  for (auto& [at, tile] : tiles_) {
+    if (tile.batch != operation_ && !tile.buffer->room.paged && tile.buffer->room.block != nullptr)
+      cold.push_back(&tile);
+  }
+  const std::size_t n = std::min(enough - old, cold.size());
+  const auto longer_ago = [](const Tile* a, const Tile* b) {
+    return a->buffer->marks.last != b->buffer->marks.last ? a->buffer->marks.last < b->buffer->marks.last
+                                                          : a->index < b->index;
+  };
+  const auto end = cold.begin() + static_cast<std::ptrdiff_t>(n);
+  std::nth_element(cold.begin(), end, cold.end(), longer_ago);
+  std::sort(cold.begin(), end, [](const Tile* a, const Tile* b) { return std::less<>{}(a->cells, b->cells); });
+  std::for_each(cold.begin(), end, [&](Tile* t) { ages_->page_out(t->buffer); });
+}
+
+void TileStore::reserve(std::size_t more) {
   if (more == 0) return;
-  const std::size_t all = ages_->in_use() + more;
-  if (all * tile_bytes() > cap_bytes_) {
+  const std::size_t most = cap_bytes_ / tile_bytes();
+  std::size_t all = ages_->count().resident + more;
+  if (all > most && pages_) {
+    page_out(all - most);
+    all = ages_->count().resident + more;
+  }
+  if (all > most) {
     throw std::length_error("map.memory_cap_bytes: " + std::to_string(all) + " tiles of " +
                             std::to_string(tile_bytes()) + " bytes" +
                             (ages_->any_view() ? ", those that views hold among them," : "") + " do not fit under " +
@@ -43,6 +79,7 @@ void TileStore::reserve(std::size_t more) const {
 Tile& TileStore::get_or_make(TileIndex at) {
   const auto [it, made] = tiles_.try_emplace(at);
   Tile& tile = it->second;
+  pin(tile);
   if (made) {
     tile.index = at;
     try {
@@ -111,6 +148,7 @@ void TileStore::replace(Tile& tile, TileBuffer* copy) noexcept {
 }
 
 void TileStore::own(Tile& tile) {
+  pin(tile);
   if (!seen(tile)) return;
   reserve(1);
   TileBuffer* const copy = make_buffer();

@@ -122,10 +122,10 @@ void note_all(ChangeLog& changes, Tile& tile) {
   changes.moved(tile);
 }
 
-/// How many entries from the first on lie one behind the other in the file, at most a batch.
-std::size_t together(std::span<const io::Entry> entries) {
+/// How many entries from the first on lie one behind the other in the file, at most so many.
+std::size_t together(std::span<const io::Entry> entries, std::size_t most) {
   std::size_t n = 1;
-  while (n < std::min(kBatch, entries.size()) && entries[n].offset == entries[n - 1].offset + entries[n - 1].bytes) ++n;
+  while (n < std::min(most, entries.size()) && entries[n].offset == entries[n - 1].offset + entries[n - 1].bytes) ++n;
   return n;
 }
 
@@ -134,8 +134,11 @@ void read_tiles(Source& in, std::span<const io::Entry> entries, Map& map) {
   ChangeLog& changes = MapAccess::changes(map);
   Executor& executor = MapAccess::executor(map);
   std::vector<io::TileDecoder> decoders(static_cast<std::size_t>(executor.concurrency()));
+  const std::size_t most = std::clamp(map.params().memory_cap_bytes / store.tile_bytes(), std::size_t{1}, kBatch);
   for (std::size_t first = 0, count = 0; first < entries.size(); first += count) {
-    count = together(entries.subspan(first));
+    count = together(entries.subspan(first), most);
+    store.begin_operation();
+    store.reserve(count);
     Batch batch{store, entries.subspan(first, count), {}, {}, {}, decoders};
     for (const io::Entry& e : batch.entries) batch.tiles.push_back(&store.get_or_make({e.y, e.x}));
     const io::Entry& last = batch.entries.back();
@@ -163,7 +166,7 @@ Map read_map(Source& in, const LoadOptions& options) {
   params.kernel = options.kernel.value_or(kernel_available(params.kernel) ? params.kernel : Kernel::automatic);
   const auto require_fits = [&](std::uint64_t tiles) {  // bounded by the file's size: no overflow
     const std::uint64_t bytes = tiles * tile_bytes(file.info);
-    if (bytes <= params.memory_cap_bytes) return;
+    if (bytes <= params.memory_cap_bytes || options.page_directory) return;
     in.fail("its " + std::to_string(tiles) + " tiles need " + std::to_string(bytes) +
             " bytes, more than the memory cap of " + std::to_string(params.memory_cap_bytes));
   };
@@ -175,6 +178,7 @@ Map read_map(Source& in, const LoadOptions& options) {
   }
   try {
     Map map(params, options.executor);
+    if (options.page_directory) map.page_to(*options.page_directory);
     for (const Sensor& sensor : file.info.sensors) map.add(sensor);
     read_tiles(in, entries, map);
     if (options.region) io::clear_around(map, entries, *options.region);

@@ -57,8 +57,9 @@ BlockMask blocks_in(const CellRect& part) noexcept {
   return out;
 }
 
-/// Room for the copies of those that a view sees, before any of them is changed.
+/// Room for the copies of those that must not be written where they are, before any of them is changed.
 void own_all(TileStore& store, const std::vector<Tile*>& tiles) {
+  for (Tile* t : tiles) store.pin(*t);
   store.reserve(static_cast<std::size_t>(
       std::count_if(tiles.begin(), tiles.end(), [&](const Tile* t) { return store.seen(*t); })));
   for (Tile* t : tiles) store.own(*t);
@@ -68,6 +69,7 @@ void own_all(TileStore& store, const std::vector<Tile*>& tiles) {
 
 void forget(const Grid& g, CellRect rect) {
   if (rect.empty()) return;
+  g.store.begin_operation();
   std::vector<Tile*> gone, partly;
   for (Tile* t : tiles_in(g.store, tiles_of(rect))) (is_whole(part_in(rect, t->index)) ? gone : partly).push_back(t);
   own_all(g.store, partly);
@@ -108,6 +110,7 @@ void drop_outside(const Grid& g, const TileRect& w) {
 
 void freeze(const Grid& g, CellRect rect) {
   if (rect.empty() || g.store.layout().age < 0) return;
+  g.store.begin_operation();
   const std::vector<Tile*> tiles = tiles_in(g.store, tiles_of(rect));
   own_all(g.store, tiles);
   for (Tile* t : tiles) {
@@ -123,13 +126,16 @@ void freeze(const Grid& g, CellRect rect) {
 
 void write(const Grid& g, CellRect rect, const std::function<const Mass*(std::int64_t, std::int64_t)>& of) {
   if (rect.empty()) return;
+  g.store.begin_operation();
   const TileRect tiles = tiles_of(rect);
   std::vector<TileIndex> at;
   std::size_t missing = 0;
   for (std::int64_t y = tiles.first.y; y <= tiles.last.y; ++y) {
     for (std::int64_t x = tiles.first.x; x <= tiles.last.x; ++x) {
       const TileIndex t{y, x};
-      if (g.store.find(t) == nullptr) {  // made only for what is known
+      if (Tile* const there = g.store.find(t)) {
+        g.store.pin(*there);
+      } else {  // made only for what is known
         const CellRect part = part_in(rect, t);
         bool any = false;
         for (std::int64_t cy = part.y; cy < part.y + part.height && !any; ++cy) {

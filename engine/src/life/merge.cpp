@@ -230,8 +230,10 @@ MergeReport merge(Map& into, const MapView& from, const MergeOptions& options) {
   }
   std::erase_if(wanted, [&](TileIndex at) { return !merging.receives(at); });
   std::size_t room = 0;
+  store.begin_operation();
   for (const TileIndex at : wanted) {
-    const Tile* tile = store.find(at);
+    Tile* const tile = store.find(at);
+    if (tile != nullptr) store.pin(*tile);
     room += static_cast<std::size_t>(tile == nullptr || store.seen(*tile));
   }
   store.reserve(room);

@@ -53,8 +53,10 @@ void put_back(Map& map, const TileSet& tiles, const MapView& view) {
     }
   } fresh{store, {}, {}};
   std::size_t room = 0;
+  store.begin_operation();
   for (const TileIndex at : tiles) {
-    const Tile* tile = store.find(at);
+    Tile* const tile = store.find(at);
+    if (tile != nullptr) store.pin(*tile);
     room += static_cast<std::size_t>(tile == nullptr || store.seen(*tile));
   }
   store.reserve(room);

@@ -91,7 +91,7 @@ void share_out(Plan& p, int threads, bool fans) {
 
 void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& table, TileStore& store,
          const Admission& admission, int threads, Plan& plan) {
-  ++plan.batch;
+  plan.batch = store.begin_operation();
   plan.tiles.clear();
   plan.unsorted.clear();
   plan.cones.clear();

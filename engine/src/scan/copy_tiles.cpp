@@ -18,7 +18,7 @@ struct Copies {
 }  // namespace
 
 void copy_what_views_see(const Plan& plan, TileStore& store, Executor& executor) {
-  if (!store.ages()->any_view()) return;
+  if (!store.any_seen()) return;
   Copies copies{store, {}, {}};
   for (const TileWork& w : plan.tiles) {
     if (store.seen(*w.tile)) copies.tiles.push_back(w.tile);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps larger than --memory-mb by --page-dir, and what is said without it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "driver/temp_dir.hpp"
+#include "program.hpp"
+
+namespace evigrid::driver {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A laser in six places half a kilometre apart, a call's scans in each.
+std::string far_apart() {
+  std::string log;
+  for (int scan = 0; scan < 6 * 128; ++scan) {
+    std::string ranges;
+    for (int beam = 0; beam < 180; ++beam) ranges += fmt::format(" {:.2f}", 1.5 + 0.005 * ((scan * 7 + beam) % 100));
+    const double x = 500.0 * (scan / 128);
+    log += fmt::format("FLASER 180{} {} 0 0 {} 0 0 {:.1f} h {:.1f}\n", ranges, x, x, 0.1 * scan, 0.1 * scan);
+  }
+  return log;
+}
+
+TEST(PageDir, TheMapIsTheSameAndWithoutItTheCapRefuses) {
+  const TempDir dir;
+  const std::string log = dir.write("far.log", far_apart());
+  const auto map = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"map", log, "-o", dir.at("out"), "--json", "-", "--max-image-mb", "4096"};
+    all.insert(all.end(), more.begin(), more.end());
+    return evigrid(all);
+  };
+  const Ran full = map({"--memory-mb", "1"});
+  EXPECT_EQ(full.code, 2);
+  EXPECT_NE(full.err.find("--page-dir"), std::string::npos) << full.err;
+  const Ran lost = map({"--memory-mb", "1", "--page-dir", dir.at("nowhere")});
+  EXPECT_EQ(lost.code, 2);
+  EXPECT_NE(lost.err.find(dir.at("nowhere")), std::string::npos) << lost.err;
+  EXPECT_EQ(map({"--memory-mb", "0"}).code, 2);
+
+  const Ran roomy = map({}), paged = map({"--memory-mb", "1", "--page-dir", dir.path().string()});
+  ASSERT_EQ(roomy.code, 0) << roomy.err;
+  ASSERT_EQ(paged.code, 0) << paged.err;
+  const Json a = Json::parse(roomy.out), b = Json::parse(paged.out);
+  EXPECT_EQ(a["map_hash"], b["map_hash"]);
+  EXPECT_FALSE(a.contains("paged_bytes"));
+  EXPECT_GT(b["paged_bytes"], 0);
+  EXPECT_LE(b["memory_bytes"], 1 << 20);
+  // The saved map names a cap that it does not fit under; whoever opens it takes his own.
+  EXPECT_EQ(evigrid({"info", dir.at("out")}).code, 0);
+}
+
+TEST(PageDir, AFleetOnALittleMemory) {
+  const TempDir dir;
+  const auto cycle = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"cycle", "--robots", "12", "--grid", "1024", "--cycles", "4", "--warmup", "0"};
+    all.insert(all.end(), more.begin(), more.end());
+    return evigrid(all);
+  };
+  const Ran full = cycle({"--memory-mb", "3"});
+  EXPECT_EQ(full.code, 2);
+  EXPECT_NE(full.err.find("--page-dir takes more"), std::string::npos) << full.err;
+}
+
+}  // namespace
+}  // namespace evigrid::driver
