@@ -167,13 +167,13 @@ void refused(const TempDir& dir, const std::string& plan, const std::string& why
 
 TEST(PaperWorld, RefusesWhatNoRobotCanUse) {
   TempDir dir;
-  refused(dir, "missing.yaml", "missing.yaml");
+  refused(dir, "missing.yaml", "missing.yaml: there is no such file");
   write_plan(dir, 60, 60, [](int, int) { return true; });
-  refused(dir, "plan.yaml", "plan.yaml");
-  write_plan(dir, 12, 12, [](int x, int y) { return x < 2 || y < 2 || x > 9 || y > 9; });  // 0.4 m wide
+  refused(dir, "plan.yaml", "plan.yaml: no pixel of the plan is free");
+  write_plan(dir, 8, 8, [](int x, int y) { return x < 2 || y < 2 || x > 5 || y > 5; });  // 0.2 m wide
   refused(dir, "plan.yaml", "from a surface");
   write_plan(dir, 28, 28, [](int x, int y) { return x < 2 || y < 2 || x > 25 || y > 25; });  // 1.2 m: it only turns
-  refused(dir, "plan.yaml", "nowhere to go");
+  refused(dir, "plan.yaml", "plan.yaml: the robot has nowhere to go");
 }
 
 TEST(PaperWorld, Delafosse2007RefusesARoundHall) {

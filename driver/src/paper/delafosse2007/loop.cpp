@@ -46,7 +46,7 @@ scenes::Pose corrected(const scenes::Pose& at, double cell_m,
 namespace {
 
 LoopWorld paper_hall(const PaperOptions& o) {
-  LoopWorld w{PaperWorld(paper_scene({.seed = o.seed}, kScene, kRobot)), {}, {}, {}, {}, {}};
+  LoopWorld w{PaperWorld(paper_scene({.seed = o.seed}, kScene, kRobot)), {}, {}, {}, {}, {}, {}};
   w.edges = vertical_edges(w.room.scene.world);
   w.radii_m = edge_radii(w.room.scene.world);
   return w;
@@ -60,8 +60,8 @@ LoopWorld users_building(const PaperOptions& o) {
   const double reach_m = StereoSpec{}.reach_m;
   const auto& tour = scene.trajectory.waypoints;
   PlanWays ways(scene);
-  const std::vector<raycast::Point> loop =
-      closed_loop(building, ways, standing_corners(scene.world, ways, tour, reach_m), reach_m, !o.start.empty());
+  const std::vector<raycast::Point> loop = closed_loop(
+      building, ways, standing_corners(scene.world, ways, tour, reach_m), reach_m, !o.start.empty(), o.world);
   std::vector<raycast::Point> edges = standing_corners(scene.world, ways, loop, reach_m);
   scene.trajectory.waypoints = loop;
   scene.trajectory.speed_m_s = paper.speed_m_s, scene.trajectory.turn_rate_rad_s = paper.turn_rate_rad_s;
@@ -69,7 +69,7 @@ LoopWorld users_building(const PaperOptions& o) {
   scene.world = part_around(scene.world, loop, reach_m + 1);
   std::vector<double> radii_m(edges.size(), 0);
   for (const raycast::Circle& c : scene.world.circles) edges.push_back(c.centre), radii_m.push_back(c.radius_m);
-  return {PaperWorld(std::move(scene)), std::move(edges), std::move(radii_m), {}, {}, {}};
+  return {PaperWorld(std::move(scene)), std::move(edges), std::move(radii_m), {}, {}, {}, o.world};
 }
 
 }  // namespace
@@ -145,9 +145,9 @@ LoopRun map_loop(const LoopWorld& w, Evidence evidence) {
   }
   if (out.blind == w.truth.size())
     throw InputError(
-        fmt::format("--world: none of the {} stops of the loop has a vertical edge within {:g} m in sight: the "
+        fmt::format("{}: none of the {} stops of the loop has a vertical edge within {:g} m in sight: the "
                     "plan is too open, or nothing in it has corners",
-                    w.truth.size(), stereo.reach_m));
+                    w.plan, w.truth.size(), stereo.reach_m));
   out.layers = grid.layers();
   return out;
 }

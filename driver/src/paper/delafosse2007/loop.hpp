@@ -2,6 +2,7 @@
 // The closed loop of Delafosse et al. 2007: stop, see, match, correct the place, fuse; and how the beacons that come
 // out of it lie by the true edges.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "out/layers.hpp"
@@ -34,6 +35,7 @@ struct LoopWorld {
   std::vector<double> radii_m;
   CellRect rect{};
   std::vector<scenes::Pose> truth, odometry;
+  std::string plan;  ///< the user's; empty: the paper's hall
 };
 
 /// The paper's hall, or a loop in the user's building, of which the part around the loop is kept. Throws InputError.

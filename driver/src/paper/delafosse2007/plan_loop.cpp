@@ -13,7 +13,7 @@ namespace {
 using raycast::Point;
 
 constexpr double kLeastTurn_rad = 45 * std::numbers::pi / 180;
-constexpr double kLeastWay_m = 1;
+constexpr double kOut_m = 25, kLeastWay_m = 1;
 constexpr double kLook_m = 1;           // between two places of the tour where landmarks are counted
 constexpr double kBeforeEdge_m = 0.02;  // in sight: nothing before it
 
@@ -53,13 +53,13 @@ std::vector<std::size_t> seen_along(const PaperWorld& w, const std::vector<Point
 }  // namespace
 
 std::vector<Point> closed_loop(const PaperWorld& building, PlanWays& ways, const std::vector<Point>& landmarks,
-                               double reach_m, bool from_start, double out_m) {
+                               double reach_m, bool from_start, const std::string& plan) {
   const std::vector<Point>& tour = building.scene.trajectory.waypoints;
   const double all_m = length_of(tour);
   double best_m = 0;
-  if (!from_start && all_m > out_m) {
+  if (!from_start && all_m > kOut_m) {
     const auto seen = seen_along(building, landmarks, tour, reach_m);
-    const auto stops = static_cast<std::size_t>(out_m / kLook_m);
+    const auto stops = static_cast<std::size_t>(kOut_m / kLook_m);
     std::size_t sum = 0, most = 0;
     for (std::size_t i = 0; i < seen.size(); ++i) {  // the last `stops` of them; of equal ones the first
       sum += seen[i];
@@ -67,11 +67,11 @@ std::vector<Point> closed_loop(const PaperWorld& building, PlanWays& ways, const
       if (i + 1 >= stops && sum > most) most = sum, best_m = kLook_m * static_cast<double>(i + 1 - stops);
     }
   }
-  std::vector<Point> loop = stretch_of(tour, best_m, std::min(best_m + out_m, all_m));
+  std::vector<Point> loop = stretch_of(tour, best_m, std::min(best_m + kOut_m, all_m));
   if (length_of(loop) < kLeastWay_m)
-    throw InputError("--world: the robot has nowhere to go: all that it can reach lies within a metre");
+    throw InputError(plan + ": the robot has nowhere to go: all that it can reach lies within a metre");
   const std::vector<Point> back = ways.find(loop.back(), loop.front());
-  if (back.empty()) throw InputError("--world: no way leads back to where the loop began");
+  if (back.empty()) throw InputError(plan + ": no way leads back to where the loop began");
   loop.insert(loop.end(), back.begin() + 1, back.end());
   return loop;
 }

@@ -2,6 +2,7 @@
 // The loop and the landmarks of a user's building: a way out along the tour and back, and the corners of the plan that
 // stand out.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "paper/paper_world.hpp"
@@ -9,13 +10,13 @@
 
 namespace evigrid::driver {
 
-/// A stretch of `out_m` of the scene's tour and the shortest way back to where it began; of all such stretches the one
+/// A stretch of 25 m of the scene's tour and the shortest way back to where it began; of all such stretches the one
 /// from which the most landmarks are in sight, summed over its stops, or the tour's own first when `from_start`. Ours:
 /// the paper's loop is about as long, and the heading, which is the wheels', would be lost on a much longer one.
-/// Throws InputError when the robot has nowhere to go.
+/// Throws InputError naming the plan when the robot has nowhere to go.
 [[nodiscard]] std::vector<raycast::Point> closed_loop(const PaperWorld& building, PlanWays& ways,
                                                       const std::vector<raycast::Point>& landmarks, double reach_m,
-                                                      bool from_start, double out_m = 25);
+                                                      bool from_start, const std::string& plan);
 
 inline constexpr double kArm_m = 0.3, kApart_m = 0.6;
 
