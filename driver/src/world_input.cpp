@@ -63,6 +63,8 @@ raycast::World load_world(const WorldOptions& o, std::optional<scenes::FloorPlan
     // The tour must not leave what the plan knows by a gap in a wall.
     const scenes::TraceOptions closed{.unknown_is_wall = true, .border_is_wall = true};
     plan = scenes::load_plan(o.world, scale);
+    if (std::find(plan->cells.begin(), plan->cells.end(), scenes::PlanCell::free) == plan->cells.end())
+      throw InputError(fmt::format("{}: no pixel of the plan is free", o.world));
     world.polygons = scenes::trace(*plan, closed);
   }
   if (world.walls.empty() && world.boxes.empty() && world.circles.empty() && world.polygons.empty())

@@ -10,7 +10,7 @@ constexpr std::array kPapers{
     Paper{"hughes1992", "Ultrasonic robot localization using Dempster-Shafer theory", true, run_hughes1992},
     Paper{"asharif2001", "Environment mapping by Dempster-Shafer reasoning, for path planning", true, run_asharif2001},
     Paper{"li2006", "Sonar grid maps with DSmT and PCR5", true, run_li2006},
-    Paper{"delafosse2007", "Incremental mapping by beacons, with a Dempster-Shafer fusion architecture", false,
+    Paper{"delafosse2007", "Incremental mapping by beacons, with a Dempster-Shafer fusion architecture", true,
           run_delafosse2007},
     Paper{"li2014", "SLAM and path planning of a mobile robot using DSmT", false, run_li2014},
 };

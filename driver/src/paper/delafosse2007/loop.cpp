@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paper/delafosse2007/loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "error.hpp"
 #include "evigrid/scenes/simulate.hpp"
 #include "evigrid/scenes/truth.hpp"
+#include "paper/delafosse2007/plan_loop.hpp"
+#include "paper/plan_part.hpp"
 
 namespace evigrid::driver {
 namespace {
 
+constexpr const char *kScene = "delafosse2007", *kRobot = "laser360";
 constexpr int kMargin = 20;  // cells around the world
 /// Wheels: 0.02 % of drift each way, 2 mm of noise over a metre (ours).
 constexpr scenes::OdometrySpec kWheels{true, 0.4, -0.0002, 0.0002, 0.002};
@@ -37,11 +43,40 @@ scenes::Pose corrected(const scenes::Pose& at, double cell_m,
 
 }  // namespace
 
+namespace {
+
+LoopWorld paper_hall(const PaperOptions& o) {
+  LoopWorld w{PaperWorld(paper_scene({.seed = o.seed}, kScene, kRobot)), {}, {}, {}, {}, {}, {}};
+  w.edges = vertical_edges(w.room.scene.world);
+  w.radii_m = edge_radii(w.room.scene.world);
+  return w;
+}
+
+/// A loop and landmarks of the user's building, at the paper's speed and stops.
+LoopWorld users_building(const PaperOptions& o) {
+  const scenes::TrajectorySpec paper = paper_scene({.seed = o.seed}, kScene, kRobot).trajectory;
+  const PaperWorld building(paper_scene(o, kScene, kRobot));
+  scenes::Scene scene = building.scene;
+  const double reach_m = StereoSpec{}.reach_m;
+  const auto& tour = scene.trajectory.waypoints;
+  PlanWays ways(scene);
+  const std::vector<raycast::Point> loop = closed_loop(
+      building, ways, standing_corners(scene.world, ways, tour, reach_m), reach_m, !o.start.empty(), o.world);
+  std::vector<raycast::Point> edges = standing_corners(scene.world, ways, loop, reach_m);
+  scene.trajectory.waypoints = loop;
+  scene.trajectory.speed_m_s = paper.speed_m_s, scene.trajectory.turn_rate_rad_s = paper.turn_rate_rad_s;
+  scene.trajectory.period_s = paper.period_s;
+  scene.world = part_around(scene.world, loop, reach_m + 1);
+  std::vector<double> radii_m(edges.size(), 0);
+  for (const raycast::Circle& c : scene.world.circles) edges.push_back(c.centre), radii_m.push_back(c.radius_m);
+  return {PaperWorld(std::move(scene)), std::move(edges), std::move(radii_m), {}, {}, {}, o.world};
+}
+
+}  // namespace
+
 LoopWorld make_loop_world(const PaperOptions& o) {
-  LoopWorld w{PaperWorld(paper_scene({.seed = o.seed}, "delafosse2007", "laser360")), {}, {}, {}, {}, {}};
+  LoopWorld w = o.world.empty() ? paper_hall(o) : users_building(o);
   const scenes::Scene& scene = w.room.scene;
-  w.edges = vertical_edges(scene.world);
-  w.radii_m = edge_radii(scene.world);
   const double c = scene.map.cell_m;
   const scenes::Extent box = scenes::extent(scene.world);
   w.rect = {std::llround(std::floor(box.low.x_m / c)) - kMargin, std::llround(std::floor(box.low.y_m / c)) - kMargin, 0,
@@ -59,11 +94,14 @@ LoopRun map_loop(const LoopWorld& w, Evidence evidence) {
   const StereoSpec stereo;
   const double cell_m = w.room.scene.map.cell_m;
   TbmGrid grid(w.rect, cell_m);
+  out.in_sight.resize(w.edges.size());
   scenes::Pose at = w.odometry.front();
   for (std::size_t stop = 0; stop < w.truth.size(); ++stop) {
     if (stop > 0) at = compose(at, between(w.odometry[stop - 1], w.odometry[stop]));
     Acquisition seen =
         acquire(stereo, *w.room.caster, w.edges, w.radii_m, w.truth[stop], w.room.scene.trajectory.seed, stop);
+    out.blind += seen.edges.empty();
+    for (const int edge : seen.edges) out.in_sight[static_cast<std::size_t>(edge)] = true;
     out.parallel += seen.parallel, out.too_wide += seen.too_wide, out.primitives += seen.primitives.size();
     // The strong primitives first.
     std::stable_sort(seen.primitives.begin(), seen.primitives.end(), [](const Primitive& a, const Primitive& b) {
@@ -105,6 +143,11 @@ LoopRun map_loop(const LoopWorld& w, Evidence evidence) {
     out.error_m.push_back(std::hypot(at.x_m - is.x_m, at.y_m - is.y_m));
     out.odometry_error_m.push_back(std::hypot(odo.x_m - is.x_m, odo.y_m - is.y_m));
   }
+  if (out.blind == w.truth.size())
+    throw InputError(
+        fmt::format("{}: none of the {} stops of the loop has a vertical edge within {:g} m in sight: the "
+                    "plan is too open, or nothing in it has corners",
+                    w.plan, w.truth.size(), stereo.reach_m));
   out.layers = grid.layers();
   return out;
 }

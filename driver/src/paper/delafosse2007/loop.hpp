@@ -2,6 +2,7 @@
 // The closed loop of Delafosse et al. 2007: stop, see, match, correct the place, fuse; and how the beacons that come
 // out of it lie by the true edges.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "out/layers.hpp"
@@ -22,7 +23,9 @@ struct LoopRun {
   std::vector<Beacon> beacons;
   std::vector<Pose2> way;  ///< corrected
   std::vector<double> error_m, odometry_error_m;
-  std::size_t primitives = 0, parallel = 0, too_wide = 0, matches = 0, false_matches = 0, wrong = 0;
+  std::size_t primitives = 0, parallel = 0, too_wide = 0, matches = 0, false_matches = 0;
+  std::vector<bool> in_sight;  ///< of each edge: whether both cameras saw it at some stop
+  std::size_t blind = 0;       ///< stops at which no edge is in sight of both cameras
   Layers layers;
 };
 
@@ -32,9 +35,12 @@ struct LoopWorld {
   std::vector<double> radii_m;
   CellRect rect{};
   std::vector<scenes::Pose> truth, odometry;
+  std::string plan;  ///< the user's; empty: the paper's hall
 };
 
+/// The paper's hall, or a loop in the user's building, of which the part around the loop is kept. Throws InputError.
 [[nodiscard]] LoopWorld make_loop_world(const PaperOptions& options);
+/// Throws InputError when no stop sees anything.
 [[nodiscard]] LoopRun map_loop(const LoopWorld& world, Evidence evidence);
 
 struct Landmarks {

@@ -79,6 +79,7 @@ Acquisition acquire(const StereoSpec& spec, const raycast::Scene& caster, const 
                     *b - left.yaw_rad + spec.sigma_rad * raycast::gaussian(key, 1)});
   }
   Acquisition out;
+  for (const Seen& s : seen) out.edges.push_back(s.landmark);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const raycast::NoiseKey key{seed, 1, static_cast<std::uint32_t>(seen[i].landmark), stop};
     const bool wrong = seen.size() > 1 && unit(key, 0) < spec.false_share;

@@ -40,6 +40,7 @@ struct Primitive {
 
 struct Acquisition {
   std::vector<Primitive> primitives;
+  std::vector<int> edges;                  ///< in sight of both cameras
   std::size_t parallel = 0, too_wide = 0;  ///< refused: an unbounded box, a useless one
 };
 
