@@ -32,7 +32,8 @@ PaperResult run_li2014(const PaperOptions& o) {
       {"Where A, B, the person's way and the board lie and how large they are, speeds and noise: ours (the scenes).",
        "Readings count in full (reliability 1), as in the paper; the reliability floor is shown beside it.",
        "Dempster's rule gets the same masses without m(empty and occupied), divided by their sum.",
-       "Heading: eta in steps of 0.25 degrees; of equal ones the smallest; taken when it has a twentieth more matches "
+       "Heading: a match is of two occupied cells or of two empty ones (the text says theta_j); eta in steps of 0.25 "
+       "degrees; of equal ones the smallest; taken when it has a twentieth more matches "
        "than no turn.",
        "A* plans on the newest map; unknown cells are held for free, obstacles grow by the radius and 5 cm, where "
        "there is "

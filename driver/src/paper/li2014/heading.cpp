@@ -9,7 +9,7 @@
 namespace evigrid::driver {
 namespace {
 
-constexpr float kSurelyOccupied = 0.8F;
+constexpr float kSurely = 0.8F;
 constexpr int kSteps = 20;  // of 0.25 degrees on either side: eta within 5 degrees
 constexpr double kStep_rad = 0.25 * std::numbers::pi / 180;
 constexpr double kMargin_m = 0.5;  // beyond a sonar's range: its arc has a width
@@ -36,8 +36,11 @@ FieldRect part_of(const FieldRect& field, const scenes::Pose& at, double reach_m
 }  // namespace
 
 HeadingAgent::HeadingAgent(const scenes::Scene& robot, const MapParams& params, const FieldRect& field,
-                           std::shared_ptr<Executor> executor, double least_gain)
-    : field_(field), current_(robot, params, std::move(executor)), reach_m_(reach_of(robot)), least_gain_(least_gain) {}
+                           std::shared_ptr<Executor> executor, double least_gain, Match match)
+    : field_(field), current_(robot, params, std::move(executor)), reach_m_(reach_of(robot)), least_gain_(least_gain) {
+  hypotheses_.push_back({Layer::bel});
+  if (match == Match::empty_and_occupied) hypotheses_.push_back({Layer::empty});
+}
 
 double HeadingAgent::error_of(const Map& map, const scenes::Sensed& scan, const scenes::Pose& believed) {
   current_.map.clear();
@@ -45,24 +48,28 @@ double HeadingAgent::error_of(const Map& map, const scenes::Sensed& scan, const 
   const FieldRect part = part_of(field_, believed, reach_m_);
   const CellRect& rect = part.rect;
   if (part.cells() == 0) return 0;  // a robot that believes to be elsewhere
-  old_.resize(part.cells()), now_.resize(part.cells());
-  map.render(Layer::bel, rect, old_, rect.width);
-  current_.map.render(Layer::bel, rect, now_, rect.width);
   const double cx = believed.x_m / part.cell_m - static_cast<double>(rect.x),
                cy = believed.y_m / part.cell_m - static_cast<double>(rect.y);
-  std::vector<raycast::Point> around;  // cells of the scan, from the robot's centre, in cells
-  for (int y = 0; y < rect.height; ++y) {
-    for (int x = 0; x < rect.width; ++x) {
-      if (now_[part.index({x, y})] > kSurelyOccupied) around.push_back({x + 0.5 - cx, y + 0.5 - cy});
+  for (Hypothesis& h : hypotheses_) {
+    h.old.resize(part.cells()), h.now.resize(part.cells());
+    map.render(h.layer, rect, h.old, rect.width);
+    current_.map.render(h.layer, rect, h.now, rect.width);
+    h.around.clear();
+    for (int y = 0; y < rect.height; ++y) {
+      for (int x = 0; x < rect.width; ++x) {
+        if (h.now[part.index({x, y})] > kSurely) h.around.push_back({x + 0.5 - cx, y + 0.5 - cy});
+      }
     }
   }
   const auto matches = [&](int k) {
     const double c = std::cos(k * kStep_rad), s = std::sin(k * kStep_rad);
     int n = 0;
-    for (const raycast::Point& p : around) {
-      const GridCell at{static_cast<int>(std::floor(cx + c * p.x_m - s * p.y_m)),
-                        static_cast<int>(std::floor(cy + s * p.x_m + c * p.y_m))};
-      n += part.inside(at) && old_[part.index(at)] > kSurelyOccupied ? 1 : 0;
+    for (const Hypothesis& h : hypotheses_) {
+      for (const raycast::Point& p : h.around) {
+        const GridCell at{static_cast<int>(std::floor(cx + c * p.x_m - s * p.y_m)),
+                          static_cast<int>(std::floor(cy + s * p.x_m + c * p.y_m))};
+        n += part.inside(at) && h.old[part.index(at)] > kSurely ? 1 : 0;
+      }
     }
     return n;
   };

@@ -35,12 +35,12 @@ HeadingTrial::HeadingTrial(const PaperWorld& world, std::uint64_t seed, bool dri
   steps_ = simulation.run(0, std::min(most_scans, simulation.steps()), threads);
 }
 
-Replay HeadingTrial::replay(double least_gain) const {
+Replay HeadingTrial::replay(double least_gain, Match match) const {
   const FieldRect field = field_of(scene_, 100);  // a drifting map leaves the room
   const auto executor = parse_executor("tbb", threads_);
   const MapParams params = germ_params(scene_);
   RobotMap mapped(scene_, params, executor);
-  HeadingAgent localization(scene_, params, field, executor, std::max(least_gain, 0.0));
+  HeadingAgent localization(scene_, params, field, executor, std::max(least_gain, 0.0), match);
   Replay out;
   scenes::Pose at = steps_.front().T_odom_robot;
   double way_m = 0;

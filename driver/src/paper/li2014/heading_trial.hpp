@@ -7,6 +7,7 @@
 
 #include "evigrid/scenes/simulate.hpp"
 #include "out/layers.hpp"
+#include "paper/li2014/heading.hpp"
 #include "paper/paper_world.hpp"
 
 namespace evigrid::driver {
@@ -30,7 +31,7 @@ class HeadingTrial {
  public:
   /// @param drifts the scene's wheels drift as its odometry says; else only its noise is left, and they slip.
   HeadingTrial(const PaperWorld& world, std::uint64_t seed, bool drifts, std::size_t most_scans, int threads);
-  [[nodiscard]] Replay replay(double least_gain) const;
+  [[nodiscard]] Replay replay(double least_gain, Match match = Match::empty_and_occupied) const;
 
  private:
   scenes::Scene scene_;

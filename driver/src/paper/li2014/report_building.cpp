@@ -16,7 +16,7 @@
 namespace evigrid::driver {
 namespace {
 
-constexpr double kHeadingWay_m = 20;
+constexpr double kHeadingWay_m = 12;
 constexpr std::size_t kQuickScans = 400;
 
 const std::vector<double> kErrands_m{5, 10, 20, 40}, kQuickErrands_m{8};
