@@ -13,7 +13,9 @@ PaperResult run_li2014(const PaperOptions& o) {
                 "P. Li, X. Huang, S. Wang, J. Dezert: SLAM and path planning of mobile robot using DSmT. 2014.");
   };
   PaperResult out{page(), {}};
-  add_dynamic_room(out, o, PaperWorld(paper_scene({.seed = o.seed}, "li2014", "pioneer16")));
+  const scenes::Scene room = paper_scene({.seed = o.seed}, "li2014", "pioneer16");
+  add_dynamic_room(out, o, PaperWorld(room));
+  add_specular(out, o, room);
   add_heading(out, o, PaperWorld(paper_scene({.seed = o.seed}, "li2014_drift", "pioneer16")));
   add_trap(out, o);
   add_tables(out, o);

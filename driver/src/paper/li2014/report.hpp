@@ -21,6 +21,8 @@ void add_tables(PaperResult& out, const PaperOptions& options);
 void add_revision(PaperResult& out, const PaperOptions& options);
 /// @param world the paper's room, or a part of a building, with a person and up to two things, which are its boxes.
 void add_dynamic_room(PaperResult& out, const PaperOptions& options, const PaperWorld& world);
+/// The paper's room again, with surfaces that throw sound away.
+void add_specular(PaperResult& out, const PaperOptions& options, const scenes::Scene& room);
 /// @param world with the wheels that slip or drift.
 void add_heading(PaperResult& out, const PaperOptions& options, const PaperWorld& world);
 void add_trap(PaperResult& out, const PaperOptions& options);
