@@ -108,6 +108,7 @@ bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rul
 
 Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   Report report;
+  const std::int64_t before_ns = p.store.now_ns;
   s.footprints.clear();
   std::size_t number = 0;
   s.scan_end.clear();
@@ -126,8 +127,13 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   }
   compile_all(s.footprints, p);
   const int threads = p.executor.concurrency();
-  bin(s.footprints, p.table, p.store, p.admission, threads, s.plan);
-  copy_what_views_see(s.plan, p.store, p.executor);
+  try {
+    bin(s.footprints, p.table, p.store, p.admission, threads, s.plan);
+    copy_what_views_see(s.plan, p.store, p.executor);
+  } catch (...) {  // no room: the scans did not come
+    p.store.now_ns = before_ns;
+    throw;
+  }
   const Shield shield(s.plan, p.admission, p.store);
   const kernels::RuleArgs rule = args_of(p.params, p.undo);
   s.stats.clear();
