@@ -54,24 +54,12 @@ PaperRun run_one(const Paper& paper, const PaperOptions& options, const std::str
   return {&paper, std::move(result.findings), wall_s};
 }
 
-std::string takes_no_world(const Paper& paper) {
-  return fmt::format("{} needs its own room and takes no other", paper.name);
-}
-
 void run_all(const Args& args) {
   OutDir out(args.out_dir);
   std::vector<PaperRun> runs;
-  std::vector<std::string> skipped;
-  for (const Paper& p : papers()) {
-    if (!args.options.world.empty() && !p.takes_world) {
-      skipped.push_back(takes_no_world(p));
-      fmt::print("{}: left out with --world\n", skipped.back());
-      continue;
-    }
-    runs.push_back(run_one(p, args.options, args.out_dir + "/" + std::string(p.name)));
-  }
-  out.write("index.html", index_page(runs, skipped));
-  out.write("index.json", index_json(runs, skipped).dump(2) + "\n");
+  for (const Paper& p : papers()) runs.push_back(run_one(p, args.options, args.out_dir + "/" + std::string(p.name)));
+  out.write("index.html", index_page(runs));
+  out.write("index.json", index_json(runs).dump(2) + "\n");
   out.commit();
   fmt::print("{}/index.html\n", args.out_dir);
 }
@@ -86,7 +74,6 @@ void run_papers(Args args) {
   if (args.name == "all") return run_all(args);
   for (const Paper& p : papers()) {
     if (args.name != p.name) continue;
-    if (!args.options.world.empty() && !p.takes_world) throw InputError("--world: " + takes_no_world(p));
     run_one(p, args.options, args.out_dir);
     return;
   }
@@ -117,7 +104,10 @@ void add_paper(CLI::App& app) {
       "Examples:\n"
       "  evigrid paper hughes1992 -o out/hughes\n"
       "  evigrid paper all -o out/papers --quick\n"
-      "  evigrid paper hughes1992 -o out/office --world office.yaml\n");
+      "  evigrid paper hughes1992 -o out/office --world office.yaml\n"
+      "  evigrid paper li2014 -o out/robot --world office.yaml --start 2,3,90\n"
+      "  evigrid paper delafosse2007 -o out/loop --world office.yaml\n"
+      "  evigrid paper all -o out/all --world office.png --resolution 0.05\n");
   command->callback([args] { run_papers(*args); });
 }
 

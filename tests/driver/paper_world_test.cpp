@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "paper/delafosse2007/plan_loop.hpp"
+#include "paper/li2014/building.hpp"
+#include "paper/li2014/path_agent.hpp"
 #include "paper/plan_part.hpp"
 #include "paper/plan_ways.hpp"
 #include "program.hpp"
@@ -154,9 +156,95 @@ TEST(PaperWorld, Delafosse2007ClosesALoopBetweenTwoRooms) {
   EXPECT_GT(slurp(dir.at("delafosse2007/building.png")).size(), 1000u);
 }
 
+TEST(PlanWays, TheBestStretchIsTheFirstOfTheRichest) {
+  const std::vector<Point> way{{0, 0}, {20, 0}};
+  EXPECT_EQ(best_stretch(way, 3, [](Point p) { return p.x_m >= 5 && p.x_m <= 8 ? 1 : 0; }), 5);
+  EXPECT_EQ(best_stretch(way, 3, [](Point) { return 1; }), 0);
+  EXPECT_EQ(best_stretch(way, 30, [](Point p) { return p.x_m > 5 ? 1 : 0; }), 0);
+}
+
+TEST(Li2014Building, PersonAndThingsStandClearOfWayAndWalls) {
+  TempDir dir;
+  write_two_rooms(dir);
+  PaperOptions options;
+  options.world = dir.at("plan.yaml");
+  const PaperWorld building(building_scene(options, "li2014", kBuildingCell_m));
+  EXPECT_EQ(building.scene.sonars.size(), 16u);
+  EXPECT_EQ(building.scene.sonars[0].max_range_m, 3);  // the paper's, not the robot's own 5 m
+  const auto patrol = find_patrol(building);
+  ASSERT_TRUE(patrol);
+  ASSERT_EQ(patrol->things.size(), 2u);
+  const double radius_m = building.scene.radius_m;
+  const auto from_way = [&](Point p) {
+    double least = INFINITY;
+    for (std::size_t i = 1; i < patrol->stretch.size(); ++i)
+      least = std::min(least, distance_to_line(p, patrol->stretch[i - 1], patrol->stretch[i]));
+    return least;
+  };
+  for (const raycast::Box& b : patrol->things) {
+    EXPECT_GE(from_way(b.centre), radius_m + std::hypot(b.length_m, b.width_m) / 2);
+    EXPECT_TRUE(building.floor->stands(b.centre, std::hypot(b.length_m, b.width_m) / 2));
+    EXPECT_GE(distance_to_line(b.centre, patrol->walk[0], patrol->walk[1]), 0.5);
+  }
+  for (const Point p : patrol->walk) EXPECT_GE(from_way(p), radius_m + 0.2);
+  EXPECT_TRUE(building.floor->drives(patrol->walk[0], patrol->walk[1], 0.3));
+  const scenes::Scene scene = patrol_scene(building.scene, *patrol);
+  EXPECT_EQ(scene.movers.size(), 1u);
+  EXPECT_NEAR(length_of(scene.trajectory.waypoints), 4.5 * length_of(patrol->stretch), 1e-9);
+
+  PlanWays ways(building.scene);
+  const auto errands = find_errands(building.scene, ways, {3, 6, 6, 100});
+  ASSERT_EQ(errands.size(), 3u);  // nothing is farther than the second within the same length
+  EXPECT_LE(length_of(errands[0].shortest), 3);
+  EXPECT_LE(length_of(errands[1].shortest), 6);
+  EXPECT_GT(length_of(errands[2].shortest), 6);
+  const auto crossing = crossing_robot(building, errands[2]);
+  ASSERT_TRUE(crossing);
+  EXPECT_TRUE(building.floor->drives(crossing->trajectory.waypoints[0], crossing->trajectory.waypoints[1], 0.22));
+}
+
+TEST(PaperWorld, Li2014DrivesToAGoalAndSaysWhatItLeavesOut) {
+  TempDir dir;
+  write_two_rooms(dir);
+  const auto run = [&](const char* threads) {
+    const Ran ran = evigrid(
+        {"paper", "li2014", "--quick", "--world", dir.at("plan.yaml"), "-o", dir.at("li2014"), "--threads", threads});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return report_of(dir, "li2014");
+  };
+  const auto report = run("1"), again = run("2");
+  for (const auto& f : report["findings"]) {
+    EXPECT_NE(f["aim"], "target") << f["name"];
+    if (f.contains("timed")) continue;
+    EXPECT_EQ(f["value"], value_of(again, f["name"])) << f["name"];
+  }
+  EXPECT_EQ(value_of(report, "goals that the planner reaches"), nlohmann::json({1, 1}));
+  EXPECT_LT(value_of(report, "the way driven, as a multiple of the shortest one").get<double>(), 1.5);
+  EXPECT_GT(value_of(report, "A: DSmT shows it").get<double>(), 0.5);
+  EXPECT_GT(value_of(report, "the person where it stands: DSmT shows it").get<double>(), 0.5);
+  EXPECT_GT(value_of(report, "the building: recall")[0].get<double>(), 0.3);
+  ASSERT_FALSE(report["details"]["left_out"].empty());
+  EXPECT_EQ(report["details"]["left_out"][0]["what"], "the U-trap");
+  const std::string html = slurp(dir.at("li2014/report.html"));
+  EXPECT_NE(html.find("Left out here"), std::string::npos);
+  EXPECT_NE(html.find("This is not the paper"), std::string::npos);
+  for (const char* picture : {"places.png", "building_dsmt.png", "dsmt_end.png", "goal1.png", "slips_corrected.png"})
+    EXPECT_GT(slurp(dir.at(std::string("li2014/") + picture)).size(), 1000u) << picture;
+}
+
+TEST(PaperWorld, Li2014LeavesThePersonOutWhereThereIsNoRoom) {
+  TempDir dir;  // a corridor 1.1 m wide and 8 m long
+  write_plan(dir, 166, 28, [](int x, int y) { return x < 3 || y < 3 || x >= 163 || y >= 25; });
+  const Ran ran = evigrid({"paper", "li2014", "--quick", "--world", dir.at("plan.yaml"), "-o", dir.at("li2014")});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto report = report_of(dir, "li2014");
+  EXPECT_EQ(report["details"]["left_out"].back()["what"], "the walking person, A and B");
+  for (const auto& f : report["findings"]) EXPECT_EQ(f["name"].get<std::string>().find("A: DSmT"), std::string::npos);
+}
+
 /// Every paper refuses it with exit status 2 and says why.
 void refused(const TempDir& dir, const std::string& plan, const std::string& why,
-             const std::vector<const char*>& names = {"delafosse2007"}) {
+             const std::vector<const char*>& names = {"delafosse2007", "li2014"}) {
   for (const char* name : names) {
     const Ran ran = evigrid({"paper", name, "--quick", "--world", dir.at(plan), "-o", dir.at("out")});
     EXPECT_EQ(ran.code, 2) << name;
@@ -179,7 +267,7 @@ TEST(PaperWorld, RefusesWhatNoRobotCanUse) {
 TEST(PaperWorld, Delafosse2007RefusesARoundHall) {
   TempDir dir;
   write_plan(dir, 200, 200, [](int x, int y) { return std::hypot(x - 99.5, y - 99.5) > 92; });
-  refused(dir, "plan.yaml", "too open, or nothing in it has corners");
+  refused(dir, "plan.yaml", "too open, or nothing in it has corners", {"delafosse2007"});
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ Tally tally(const std::vector<Finding>& findings) {
   return t;
 }
 
-std::string index_page(const std::vector<PaperRun>& runs, const std::vector<std::string>& skipped) {
+std::string index_page(const std::vector<PaperRun>& runs) {
   Page page("Papers, run again", "evigrid paper all: the behaviours of each paper, its published figures beside ours.");
   std::vector<std::vector<std::string>> rows;
   std::vector<std::pair<std::string, std::string>> links;
@@ -46,14 +46,10 @@ std::string index_page(const std::vector<PaperRun>& runs, const std::vector<std:
     page.heading("What does not come out");
     page.list(misses);
   }
-  if (!skipped.empty()) {
-    page.heading("Left out");
-    page.list(skipped);
-  }
   return page.html();
 }
 
-nlohmann::ordered_json index_json(const std::vector<PaperRun>& runs, const std::vector<std::string>& skipped) {
+nlohmann::ordered_json index_json(const std::vector<PaperRun>& runs) {
   nlohmann::ordered_json out{{"version", EVIGRID_VERSION}, {"papers", nlohmann::ordered_json::array()}};
   for (const PaperRun& run : runs) {
     const Tally t = tally(run.findings);
@@ -65,7 +61,6 @@ nlohmann::ordered_json index_json(const std::vector<PaperRun>& runs, const std::
                              {"floors_failed", t.below},
                              {"wall_s", run.wall_s}});
   }
-  if (!skipped.empty()) out["skipped"] = skipped;
   return out;
 }
 

@@ -22,9 +22,8 @@ struct Tally {
 };
 [[nodiscard]] Tally tally(const std::vector<Finding>& findings);
 
-/// Links lead to NAME/report.html. `skipped`: papers that were left out, and why.
-[[nodiscard]] std::string index_page(const std::vector<PaperRun>& runs, const std::vector<std::string>& skipped);
-[[nodiscard]] nlohmann::ordered_json index_json(const std::vector<PaperRun>& runs,
-                                                const std::vector<std::string>& skipped);
+/// Links lead to NAME/report.html.
+[[nodiscard]] std::string index_page(const std::vector<PaperRun>& runs);
+[[nodiscard]] nlohmann::ordered_json index_json(const std::vector<PaperRun>& runs);
 
 }  // namespace evigrid::driver

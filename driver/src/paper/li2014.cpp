@@ -7,13 +7,14 @@
 namespace evigrid::driver {
 
 PaperResult run_li2014(const PaperOptions& o) {
+  if (!o.world.empty()) return li2014_in_building(o);
   const auto page = [] {
     return Page("A robot of agents in a dynamic room",
                 "P. Li, X. Huang, S. Wang, J. Dezert: SLAM and path planning of mobile robot using DSmT. 2014.");
   };
   PaperResult out{page(), {}};
-  add_dynamic_room(out, o);
-  add_heading(out, o);
+  add_dynamic_room(out, o, PaperWorld(paper_scene({.seed = o.seed}, "li2014", "pioneer16")));
+  add_heading(out, o, PaperWorld(paper_scene({.seed = o.seed}, "li2014_drift", "pioneer16")));
   add_trap(out, o);
   add_tables(out, o);
   add_revision(out, o);

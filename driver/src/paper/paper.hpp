@@ -39,7 +39,6 @@ struct PaperResult {
 
 struct Paper {
   std::string_view name, title;
-  bool takes_world;  ///< whether its behaviours run on a plan of the user's
   PaperResult (*run)(const PaperOptions&);
 };
 

@@ -7,12 +7,12 @@ namespace evigrid::driver {
 namespace {
 
 constexpr std::array kPapers{
-    Paper{"hughes1992", "Ultrasonic robot localization using Dempster-Shafer theory", true, run_hughes1992},
-    Paper{"asharif2001", "Environment mapping by Dempster-Shafer reasoning, for path planning", true, run_asharif2001},
-    Paper{"li2006", "Sonar grid maps with DSmT and PCR5", true, run_li2006},
-    Paper{"delafosse2007", "Incremental mapping by beacons, with a Dempster-Shafer fusion architecture", true,
+    Paper{"hughes1992", "Ultrasonic robot localization using Dempster-Shafer theory", run_hughes1992},
+    Paper{"asharif2001", "Environment mapping by Dempster-Shafer reasoning, for path planning", run_asharif2001},
+    Paper{"li2006", "Sonar grid maps with DSmT and PCR5", run_li2006},
+    Paper{"delafosse2007", "Incremental mapping by beacons, with a Dempster-Shafer fusion architecture",
           run_delafosse2007},
-    Paper{"li2014", "SLAM and path planning of a mobile robot using DSmT", false, run_li2014},
+    Paper{"li2014", "SLAM and path planning of a mobile robot using DSmT", run_li2014},
 };
 
 }  // namespace

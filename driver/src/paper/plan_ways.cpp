@@ -18,6 +18,7 @@ using raycast::Point;
 constexpr double kMostCells = 1 << 25;
 constexpr double kRoom_m = 0.3;  // as far beyond the radius a step is dearer, at the radius itself
 constexpr float kNarrow = 3;     // by as much
+constexpr double kLook_m = 1;    // between two places of a way that are asked
 constexpr int kBeside = 2;       // cells: a wall on the border of two cells fills both
 constexpr int kNearby = 3;       // cells: the ends of a way may lie beside what is free
 
@@ -52,6 +53,22 @@ std::vector<Point> stretch_of(const std::vector<Point>& way, double from_m, doub
   }
   if (out.empty()) out.push_back(way.front());
   return out;
+}
+
+double best_stretch(const std::vector<Point>& way, double long_m, const std::function<std::size_t(Point)>& worth) {
+  const double all_m = length_of(way);
+  if (all_m <= long_m) return 0;
+  const auto count = static_cast<std::size_t>(long_m / kLook_m);
+  std::vector<std::size_t> at;
+  std::size_t sum = 0, most = 0;
+  double best_m = 0;
+  for (double s = 0; s <= all_m; s += kLook_m) {
+    at.push_back(worth(stretch_of(way, s, s).front()));
+    sum += at.back();
+    if (at.size() > count) sum -= at[at.size() - 1 - count];
+    if (at.size() >= count && sum > most) most = sum, best_m = kLook_m * static_cast<double>(at.size() - count);
+  }
+  return best_m;
 }
 
 PlanWays::PlanWays(const scenes::Scene& scene) {

@@ -2,6 +2,8 @@
 // Ways through the free space of a user's building, as someone who knows the plan would take them: for choosing loops
 // and goals, and as the yardstick of what a robot drives that does not know it.
 #pragma once
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "evigrid/scenes/scene.hpp"
@@ -14,6 +16,11 @@ namespace evigrid::driver {
 /// The way between two lengths along it, both within [0, length_of(way)]; at least one point.
 [[nodiscard]] std::vector<raycast::Point> stretch_of(const std::vector<raycast::Point>& way, double from_m,
                                                      double to_m);
+
+/// Where the stretch of `long_m` begins at whose places, one every metre, `worth` sums up to the most; of equal ones
+/// the first. m along the way; 0 when it is not longer than that.
+[[nodiscard]] double best_stretch(const std::vector<raycast::Point>& way, double long_m,
+                                  const std::function<std::size_t(raycast::Point)>& worth);
 
 class PlanWays {
  public:

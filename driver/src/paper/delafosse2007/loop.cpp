@@ -89,7 +89,7 @@ LoopWorld make_loop_world(const PaperOptions& o) {
   return w;
 }
 
-LoopRun map_loop(const LoopWorld& w, Evidence evidence) {
+LoopRun map_loop(const LoopWorld& w, Evidence evidence, const LoopVariant& variant) {
   LoopRun out;
   const StereoSpec stereo;
   const double cell_m = w.room.scene.map.cell_m;
@@ -98,6 +98,7 @@ LoopRun map_loop(const LoopWorld& w, Evidence evidence) {
   scenes::Pose at = w.odometry.front();
   for (std::size_t stop = 0; stop < w.truth.size(); ++stop) {
     if (stop > 0) at = compose(at, between(w.odometry[stop - 1], w.odometry[stop]));
+    if (variant.true_heading) at.yaw_rad = w.truth[stop].yaw_rad;
     Acquisition seen =
         acquire(stereo, *w.room.caster, w.edges, w.radii_m, w.truth[stop], w.room.scene.trajectory.seed, stop);
     out.blind += seen.edges.empty();
@@ -136,7 +137,7 @@ LoopRun map_loop(const LoopWorld& w, Evidence evidence) {
       const Existence& told = evidence == Evidence::accumulated ? out.beacons[b].exists : news;
       grid.fuse_box(here.x, here.y, told);
       grid.fuse_free({at.x_m, at.y_m}, here.x, here.y, told);
-      out.beacons[b].centre = grid.gravity(out.beacons[b].centre);
+      out.beacons[b].centre = grid.gravity(variant.box_centre ? here.centre() : out.beacons[b].centre);
     }
     out.way.push_back({at.x_m, at.y_m, at.yaw_rad});
     const scenes::Pose &is = w.truth[stop], &odo = w.odometry[stop];

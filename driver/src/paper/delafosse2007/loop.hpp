@@ -19,6 +19,12 @@ inline constexpr std::size_t kSeen = 3;
 /// What a beacon's cells are told: its whole accumulated mass at every match, as the paper has it, or only what is new.
 enum class Evidence { accumulated, increment };
 
+/// What else one may read differently, for finding out what an error comes from.
+struct LoopVariant {
+  bool true_heading = false;  ///< else the wheels'
+  bool box_centre = false;    ///< the centre of gravity is looked for around the newest box; else around the beacon
+};
+
 struct LoopRun {
   std::vector<Beacon> beacons;
   std::vector<Pose2> way;  ///< corrected
@@ -41,7 +47,7 @@ struct LoopWorld {
 /// The paper's hall, or a loop in the user's building, of which the part around the loop is kept. Throws InputError.
 [[nodiscard]] LoopWorld make_loop_world(const PaperOptions& options);
 /// Throws InputError when no stop sees anything.
-[[nodiscard]] LoopRun map_loop(const LoopWorld& world, Evidence evidence);
+[[nodiscard]] LoopRun map_loop(const LoopWorld& world, Evidence evidence, const LoopVariant& variant = {});
 
 struct Landmarks {
   std::size_t sure = 0, within = 0, found = 0;  ///< beacons that count; of those near an edge; edges with one near

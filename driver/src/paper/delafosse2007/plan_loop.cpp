@@ -14,7 +14,6 @@ using raycast::Point;
 
 constexpr double kLeastTurn_rad = 45 * std::numbers::pi / 180;
 constexpr double kOut_m = 25, kLeastWay_m = 1;
-constexpr double kLook_m = 1;           // between two places of the tour where landmarks are counted
 constexpr double kBeforeEdge_m = 0.02;  // in sight: nothing before it
 
 struct Corner {
@@ -36,37 +35,20 @@ Point along(const std::vector<Point>& v, std::size_t i, std::size_t step, double
   return at;
 }
 
-/// How many landmarks are in sight at every kLook_m of the way.
-std::vector<std::size_t> seen_along(const PaperWorld& w, const std::vector<Point>& landmarks,
-                                    const std::vector<Point>& way, double reach_m) {
-  std::vector<std::size_t> out;
-  for (double s = 0; s <= length_of(way); s += kLook_m) {
-    const Point at = stretch_of(way, s, s).front();
-    out.push_back(static_cast<std::size_t>(std::count_if(landmarks.begin(), landmarks.end(), [&](Point p) {
-      const double dx = p.x_m - at.x_m, dy = p.y_m - at.y_m, d = std::hypot(dx, dy);
-      return d <= reach_m && w.caster->ray_range(at.x_m, at.y_m, std::atan2(dy, dx), reach_m + 1) >= d - kBeforeEdge_m;
-    })));
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<Point> closed_loop(const PaperWorld& building, PlanWays& ways, const std::vector<Point>& landmarks,
                                double reach_m, bool from_start, const std::string& plan) {
   const std::vector<Point>& tour = building.scene.trajectory.waypoints;
   const double all_m = length_of(tour);
-  double best_m = 0;
-  if (!from_start && all_m > kOut_m) {
-    const auto seen = seen_along(building, landmarks, tour, reach_m);
-    const auto stops = static_cast<std::size_t>(kOut_m / kLook_m);
-    std::size_t sum = 0, most = 0;
-    for (std::size_t i = 0; i < seen.size(); ++i) {  // the last `stops` of them; of equal ones the first
-      sum += seen[i];
-      if (i >= stops) sum -= seen[i - stops];
-      if (i + 1 >= stops && sum > most) most = sum, best_m = kLook_m * static_cast<double>(i + 1 - stops);
-    }
-  }
+  const auto in_sight = [&](Point at) {
+    return static_cast<std::size_t>(std::count_if(landmarks.begin(), landmarks.end(), [&](Point p) {
+      const double dx = p.x_m - at.x_m, dy = p.y_m - at.y_m, d = std::hypot(dx, dy);
+      return d <= reach_m &&
+             building.caster->ray_range(at.x_m, at.y_m, std::atan2(dy, dx), reach_m + 1) >= d - kBeforeEdge_m;
+    }));
+  };
+  const double best_m = from_start ? 0 : best_stretch(tour, kOut_m, in_sight);
   std::vector<Point> loop = stretch_of(tour, best_m, std::min(best_m + kOut_m, all_m));
   if (length_of(loop) < kLeastWay_m)
     throw InputError(plan + ": the robot has nowhere to go: all that it can reach lies within a metre");

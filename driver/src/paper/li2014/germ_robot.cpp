@@ -73,6 +73,7 @@ GermRun run_germ(const PaperWorld& world, const GermOptions& o) {
   const DriveLimits limits{scene.trajectory.speed_m_s, scene.trajectory.turn_rate_rad_s};
   GermRun run;
   const bool agents = o.steering == Steering::agents;
+  std::size_t lost = 0;  // cycles without a way, one after the other
   for (double t = 0; t <= o.limit_s; t = static_cast<double>(run.poses.size()) * kCycle_s) {
     const auto movers = walkers.at(t);
     const scenes::Sensed scan = robot.sense(movers);
@@ -92,6 +93,7 @@ GermRun run_germ(const PaperWorld& world, const GermOptions& o) {
         ++run.plans;
         if (!planning.plan(mapped.map, place(at), o.goal)) ++run.without_way;
       }
+      lost = planning.turning_goals().empty() ? lost + 1 : 0;
       const auto target = planning.next_goal(place(at), kTurningGoal_m);
       if (target) {
         if (run.goals.empty() || distance(run.goals.back(), *target) > field.cell_m) run.goals.push_back(*target);
@@ -108,7 +110,7 @@ GermRun run_germ(const PaperWorld& world, const GermOptions& o) {
     run.poses.push_back(to_engine(robot.pose()));
     run.reached = distance(place(at), o.goal) <= kDone_m;
     run.time_s = t;
-    if (run.reached) break;
+    if (run.reached || static_cast<double>(lost) * kCycle_s >= o.give_up_s) break;
     run.touched_walls += robot.move(scenes::Motion{kCycle_s, drive.speed_m_s, drive.turn_rate_rad_s}).stopped;
     for (std::size_t i = 0; i < movers.size(); ++i) {
       for (const raycast::Circle& c : scene.movers[i].shape.circles) {

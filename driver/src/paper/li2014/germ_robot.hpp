@@ -3,6 +3,7 @@
 // localization (heading.hpp), path planning (path_agent.hpp), behaviour (goto, avoid), actuator (the scene's robot) and
 // the client that keeps the map. One pass through all of them a cycle of 100 ms.
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "out/layers.hpp"
@@ -19,7 +20,8 @@ enum class Steering {
 struct GermOptions {
   Steering steering = Steering::agents;
   raycast::Point goal{};
-  double limit_s = 150;  ///< then the run is over
+  double limit_s = 150;         ///< then the run is over
+  double give_up_s = INFINITY;  ///< the agents' run is over, too, when the map has left no way for so long
   std::uint64_t seed = 0;
   int threads = 0;
   bool keep_map = false;  ///< render it at the end

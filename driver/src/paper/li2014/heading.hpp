@@ -29,6 +29,7 @@ class HeadingAgent {
  private:
   FieldRect field_;
   RobotMap current_;
+  double reach_m_;  // from the robot's centre to the farthest cell that a scan can tell of
   double least_gain_;
   struct Hypothesis {
     Layer layer;

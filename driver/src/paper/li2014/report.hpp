@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "paper/paper.hpp"
+#include "paper/paper_world.hpp"
 
 namespace evigrid::driver {
 
@@ -18,8 +19,13 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 void add_tables(PaperResult& out, const PaperOptions& options);
 /// Table 3's learned revision.
 void add_revision(PaperResult& out, const PaperOptions& options);
-void add_dynamic_room(PaperResult& out, const PaperOptions& options);
-void add_heading(PaperResult& out, const PaperOptions& options);
+/// @param world the paper's room, or a part of a building, with a person and up to two things, which are its boxes.
+void add_dynamic_room(PaperResult& out, const PaperOptions& options, const PaperWorld& world);
+/// @param world with the wheels that slip or drift.
+void add_heading(PaperResult& out, const PaperOptions& options, const PaperWorld& world);
 void add_trap(PaperResult& out, const PaperOptions& options);
+
+/// The whole report of a user's building: what of the paper makes sense there, and what is left out.
+[[nodiscard]] PaperResult li2014_in_building(const PaperOptions& options);
 
 }  // namespace evigrid::driver
