@@ -58,6 +58,7 @@ TEST(PlanPart, CutsWallsAtItsSidesAndClosesThem) {
   world.polygons.push_back({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}});  // the window cuts its lower side alone
   world.walls.push_back({{4, 1}, {6, 3}, {0.5, 0.25}});                  // from within up and out
   world.walls.push_back({{20, 20}, {30, 20}, {}});
+  world.walls.push_back({{0, -0.5}, {4, 3.5}, {}});  // slanting past a corner
   world.boxes.push_back({{5, 1}, 0.4, 0.2, 0, {}});
   world.circles.push_back({{7.2, 0}, 0.4, {}});  // reaches in, stays whole
   world.circles.push_back({{9, 0}, 0.4, {}});
@@ -112,6 +113,9 @@ TEST(PlanWays, GoThroughTheDoorAndKeepTheRadius) {
   for (std::size_t i = 1; i < way.size(); ++i)
     EXPECT_TRUE(floor.drives(way[i - 1], way[i], scene.radius_m - 0.05)) << i;
   EXPECT_TRUE(ways.find({1, 1}, {20, 1}).empty());
+  scenes::Scene narrow = scene;
+  narrow.world.walls[0].to.y_m = 3.6;  // 0.4 m are left, the robot needs 0.6
+  EXPECT_TRUE(PlanWays(narrow).find({1, 1}, {7, 1}).empty());
 }
 
 TEST(PlanLoop, CornersStandOutAndRoughnessDoesNot) {
@@ -163,6 +167,38 @@ TEST(PlanWays, TheBestStretchIsTheFirstOfTheRichest) {
   EXPECT_EQ(best_stretch(way, 30, [](Point p) { return p.x_m > 5 ? 1 : 0; }), 0);
 }
 
+/// Nothing touches anything, whatever the robot and the person do.
+void expect_clear(const PaperWorld& building, const Patrol& patrol) {
+  const double radius_m = building.scene.radius_m;
+  const auto from_way = [&](Point p) {
+    double least = INFINITY;
+    for (std::size_t i = 1; i < patrol.stretch.size(); ++i)
+      least = std::min(least, distance_to_line(p, patrol.stretch[i - 1], patrol.stretch[i]));
+    return least;
+  };
+  for (const raycast::Box& b : patrol.things) {
+    EXPECT_GE(from_way(b.centre), radius_m + std::hypot(b.length_m, b.width_m) / 2);
+    EXPECT_TRUE(building.floor->stands(b.centre, std::hypot(b.length_m, b.width_m) / 2));
+    EXPECT_GE(distance_to_line(b.centre, patrol.walk[0], patrol.walk[1]), 0.5);
+  }
+  for (const Point p : patrol.walk) EXPECT_GE(from_way(p), radius_m + 0.2);
+  EXPECT_TRUE(building.floor->drives(patrol.walk[0], patrol.walk[1], 0.3));
+}
+
+TEST(Li2014Building, ThingsStandClearOfEveryLegOfTheWay) {
+  scenes::Scene scene;
+  scene.radius_m = 0.28;
+  scene.world.polygons.push_back({{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {}});
+  for (const double apart : {0.8, 1.0, 1.2, 1.5}) {  // a hairpin: beside one leg is on the other
+    scene.trajectory.waypoints = {{3, 3}, {4.6, 3}, {4.6, 3 + apart}, {3, 3 + apart}};
+    const PaperWorld building(scene);
+    const auto patrol = find_patrol(building);
+    ASSERT_TRUE(patrol) << apart;
+    EXPECT_EQ(patrol->things.size(), 2u) << apart;
+    expect_clear(building, *patrol);
+  }
+}
+
 TEST(Li2014Building, PersonAndThingsStandClearOfWayAndWalls) {
   TempDir dir;
   write_two_rooms(dir);
@@ -174,20 +210,7 @@ TEST(Li2014Building, PersonAndThingsStandClearOfWayAndWalls) {
   const auto patrol = find_patrol(building);
   ASSERT_TRUE(patrol);
   ASSERT_EQ(patrol->things.size(), 2u);
-  const double radius_m = building.scene.radius_m;
-  const auto from_way = [&](Point p) {
-    double least = INFINITY;
-    for (std::size_t i = 1; i < patrol->stretch.size(); ++i)
-      least = std::min(least, distance_to_line(p, patrol->stretch[i - 1], patrol->stretch[i]));
-    return least;
-  };
-  for (const raycast::Box& b : patrol->things) {
-    EXPECT_GE(from_way(b.centre), radius_m + std::hypot(b.length_m, b.width_m) / 2);
-    EXPECT_TRUE(building.floor->stands(b.centre, std::hypot(b.length_m, b.width_m) / 2));
-    EXPECT_GE(distance_to_line(b.centre, patrol->walk[0], patrol->walk[1]), 0.5);
-  }
-  for (const Point p : patrol->walk) EXPECT_GE(from_way(p), radius_m + 0.2);
-  EXPECT_TRUE(building.floor->drives(patrol->walk[0], patrol->walk[1], 0.3));
+  expect_clear(building, *patrol);
   const scenes::Scene scene = patrol_scene(building.scene, *patrol);
   EXPECT_EQ(scene.movers.size(), 1u);
   EXPECT_NEAR(length_of(scene.trajectory.waypoints), 4.5 * length_of(patrol->stretch), 1e-9);
