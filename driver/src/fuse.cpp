@@ -26,6 +26,18 @@ std::string listed(const std::vector<ParamError>& errors) {
   return out;
 }
 
+/// A call takes as many scans as fit under the cap at once, where tiles can go elsewhere between two of them.
+Report integrate_what_fits(Map& map, std::span<const Scan> scans, bool pages) {
+  try {
+    return map.integrate(scans);
+  } catch (const std::length_error&) {
+    if (!pages || scans.size() < 2) throw;
+  }
+  Report report = integrate_what_fits(map, scans.first(scans.size() / 2), pages);
+  report += integrate_what_fits(map, scans.subspan(scans.size() / 2), pages);
+  return report;
+}
+
 }  // namespace
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -139,7 +151,7 @@ Fused fuse(const Log& log, const MappingOptions& options, Plan plan, const Journ
     journal.record(at, batch);
     const auto start = Clock::now();
     try {
-      out.report += out.map.integrate(batch);
+      out.report += integrate_what_fits(out.map, batch, !options.page_dir.empty());
     } catch (const std::length_error& full) {
       throw InputError(fmt::format("the map grows beyond its memory cap: {}; {}", full.what(), kMoreRoom));
     } catch (const std::system_error& disk) {

@@ -8,7 +8,7 @@
 
 #include "device/device_map.hpp"
 #include "kernels/row/portable_math.hpp"
-#include "rule_kernels.hpp"
+#include "region_task.hpp"
 #include "scan/copy_tiles.hpp"
 #include "scan/gate.hpp"
 #include "scan/shield.hpp"
@@ -16,13 +16,6 @@
 
 namespace evigrid {
 namespace {
-
-struct Batch {
-  const Pipeline& p;
-  Scratch& s;
-  kernels::RuleArgs rule;
-  bool dependent = false;  // some sensor's readings of one scan are no distinct evidence
-};
 
 kernels::RuleArgs args_of(const MapParams& p, bool undo) {
   const auto log_odds = [](double q) {
@@ -37,180 +30,6 @@ kernels::RuleArgs args_of(const MapParams& p, bool undo) {
   a.last = p.keep_last_conflict;
   return a;
 }
-
-/// One region: its readings, in order. Cones are listed ahead of their fusion, so that their cells can be fetched.
-class RegionTask {
- public:
-  RegionTask(const Batch& b, RegionScratch& scratch) : b_(b), s_(scratch), rule_(kernel_of(b.p.params.rule)) {}
-
-  void run(std::span<const Reach> reaches) {
-    for (std::size_t i = 0; i < reaches.size();) {
-      std::size_t end = i + 1;
-      while (end < reaches.size() && reaches[end].footprint == reaches[i].footprint) ++end;
-      const Footprint& f = b_.s.footprints[reaches[i].footprint];
-      if (b_.dependent && (i == 0 || f.scan != b_.s.footprints[reaches[i - 1].footprint].scan)) end_scan();
-      stamp_ns_ = f.stamp_ns;
-      if (f.fan) {
-        fuse_cones();
-        for (; i < end; ++i) fuse_fan(f, b_.s.plan.tiles[reaches[i].tile]);
-      } else {
-        list_cone(f, reaches.subspan(i, end - i));
-        i = end;
-      }
-    }
-    fuse_cones();
-    if (b_.dependent) end_scan();
-    for (const Reach& r : reaches) {
-      TileWork& w = b_.s.plan.tiles[r.tile];
-      if (w.reached == 0 || w.touched) continue;
-      ++tiles;
-      if (stats.cells == 0) continue;
-      w.tile->buffer->marks.mark(w.reached, b_.p.changes.next());
-      w.touched = true;
-    }
-  }
-  kernels::Stats stats;
-  std::uint64_t tiles = 0;
-
- private:
-  void list_cone(const Footprint& f, std::span<const Reach> reaches) {
-    constexpr int kEnough = 4096;
-    Plan& plan = b_.s.plan;
-    const ConeList::Marks from = s_.list.marks();
-    const ConeFootprint& cone = plan.cone[reaches[0].footprint];
-    for (const Reach& r : reaches) {
-      TileWork& w = plan.tiles[r.tile];
-      w.reached |= s_.list.add(cone, plan.cones.bands(cone), *w.tile, b_.p.store.planes());
-    }
-    s_.pending.push_back({&f, from, s_.list.marks()});
-    if (s_.list.size() > kEnough) fuse_cones();
-  }
-  void fuse_cones() {
-    for (const PendingCone& c : s_.pending) {
-      kernels::ConeArgs args = s_.list.args(c.from, c.to);
-      args.planes = b_.p.store.planes();
-      args.conflict_plane = b_.p.params.keep_conflict && !b_.p.undo;
-      args.rule = b_.rule;
-      if (const Sensor& s = c.footprint->sensor->sensor; s.dependence != Dependence::independent || s.revision) {
-        hear_cone(*c.footprint, args);
-        continue;
-      }
-      const auto fuse = [&] { b_.p.table.fuse_cone[rule_][c.footprint->cone_model](args, c.footprint->cone, stats); };
-      fuse_forgetting(c.footprint->stamp_ns, c.footprint->sensor->sensor.decay_s, fuse, [&](auto&& hold) {
-        for (const kernels::ZoneMicros& zone : args.zone) std::for_each(zone.cells, zone.cells + zone.count, hold);
-      });
-    }
-    s_.pending.clear();
-    s_.list.clear();
-  }
-  void fuse_fan(const Footprint& f, TileWork& w) {
-    const kernels::FanReading& q = f.fan->reading;
-    kernels::TileArgs args;
-    args.cells = w.tile->cells;
-    args.planes = b_.p.store.planes();
-    args.conflict_plane = b_.p.params.keep_conflict && !b_.p.undo;
-    args.rule = b_.rule;
-    args.x0 = static_cast<float>(offset(w.at.x, q.i0, q.fx));
-    args.y0 = static_cast<float>(offset(w.at.y, q.j0, q.fy));
-    kernels::FanMicros& micros = s_.fan_micros;
-    b_.p.table.select_fan(q, args.x0, args.y0, micros);
-    args.fan = &micros;
-    const std::uint64_t before = stats.cells;
-    if (f.sensor->sensor.dependence != Dependence::independent) {
-      hear_fan(f, args);
-    } else {
-      fuse_fan_at_once(f, args);
-    }
-    if (stats.cells == before) return;
-    w.reached |= blocks_of(micros.empty, micros.empty_count) | blocks_of(micros.near, micros.near_count) |
-                 blocks_of(micros.edge, micros.edge_count - micros.near_count);
-  }
-  /// Calls visit(number) for each micro-tile of the tile that the fan may touch.
-  template <class Visit>
-  static void each_micro_of(const kernels::FanMicros& micros, Visit&& visit) {
-    const auto each = [&](float micro) { visit(static_cast<std::ptrdiff_t>(micro)); };
-    std::for_each(micros.empty, micros.empty + micros.empty_count, each);
-    std::for_each(micros.near, micros.near + micros.near_count, each);
-    std::for_each(micros.edge, micros.edge + (micros.edge_count - micros.near_count), each);
-  }
-  void fuse_fan_at_once(const Footprint& f, const kernels::TileArgs& args) {
-    const kernels::FanReading& q = f.fan->reading;
-    fuse_forgetting(
-        f.stamp_ns, f.sensor->sensor.decay_s, [&] { b_.p.table.fuse_fan[rule_](args, q, stats); },
-        [&](auto&& hold) {
-          each_micro_of(*args.fan,
-                        [&](std::ptrdiff_t m) { hold(args.cells + m * kernels::kMicroCells * args.planes); });
-        });
-  }
-
-  /// Readings that are no distinct evidence: what they say is kept until their scan is over.
-  DependentReadings& together(const Sensor& s) {
-    return s.dependence == Dependence::independent ? s_.alone : s_.together[static_cast<int>(s.dependence) - 1];
-  }
-  void hear_cone(const Footprint& f, kernels::ConeArgs args) {
-    std::size_t count = 0, at = 0;
-    for (const kernels::ZoneMicros& zone : args.zone) count += static_cast<std::size_t>(zone.count);
-    if (count == 0) return;
-    const Sensor& sensor = f.sensor->sensor;
-    const std::vector<Plane>& planes = sensor.revision ? planes_of_revised() : b_.p.store.layout().planes;
-    float* const blank = s_.blank.blank(planes, count);
-    const auto micro = static_cast<std::ptrdiff_t>(kernels::kMicroCells * planes.size());
-    s_.blank_cells.resize(count + kernels::kConeZones * kernels::kConeAhead);
-    kernels::ConeArgs heard = args;
-    heard.planes = static_cast<int>(planes.size());
-    heard.conflict_plane = heard.rule.con = heard.rule.last = false;
-    float** listed = s_.blank_cells.data();
-    for (kernels::ZoneMicros& zone : heard.zone) {
-      zone.cells = listed;
-      for (int i = 0; i < zone.count; ++i) *listed++ = blank + static_cast<std::ptrdiff_t>(at++) * micro;
-      for (int i = 0; i < kernels::kConeAhead; ++i) *listed++ = blank;
-    }
-    const int rule = sensor.revision ? static_cast<int>(kernels::kConjunctive) : rule_;
-    b_.p.table.fuse_cone[rule][f.cone_model](heard, f.cone, stats);
-    if (sensor.revision) s_.revised.revise(sensor, b_.p.params, blank, count);
-    DependentReadings& said = together(sensor);
-    for (int z = 0; z < kernels::kConeZones; ++z) {
-      for (int i = 0; i < args.zone[z].count; ++i) said.add(sensor, args.zone[z].cells[i], heard.zone[z].cells[i]);
-    }
-    if (sensor.dependence == Dependence::independent && !said.empty()) meet(said, f.stamp_ns, sensor.decay_s);
-  }
-  void hear_fan(const Footprint& f, const kernels::TileArgs& args) {
-    kernels::TileArgs heard = args;
-    heard.cells = s_.blank.blank(b_.p.store.layout().planes, kernels::kMicrosPerTile);
-    heard.conflict_plane = heard.rule.con = heard.rule.last = false;
-    b_.p.table.fuse_fan[rule_](heard, f.fan->reading, stats);
-    each_micro_of(*args.fan, [&](std::ptrdiff_t m) {
-      const std::ptrdiff_t at = m * kernels::kMicroCells * args.planes;
-      together(f.sensor->sensor).add(f.sensor->sensor, args.cells + at, heard.cells + at);
-    });
-  }
-  void end_scan() {
-    fuse_cones();
-    for (DependentReadings& d : s_.together) {
-      if (!d.empty()) meet(d, stamp_ns_, 0);
-    }
-  }
-  void meet(DependentReadings& d, std::int64_t stamp_ns, double own_s) {
-    fuse_forgetting(
-        stamp_ns, own_s, [&] { d.fuse(b_.p.params, b_.p.store, stats); }, [&](auto&& hold) { d.each_micro(hold); });
-  }
-
-  /// One reading. In maps that forget, each micro-tile that it may touch is aged before; `each_micro` calls what it is
-  /// given with each of them.
-  template <class Fuse, class EachMicro>
-  void fuse_forgetting(std::int64_t stamp_ns, double own_s, Fuse&& fuse, EachMicro&& each_micro) {
-    if (b_.p.params.decay_s <= 0) return fuse();
-    each_micro([&](float* micro) { s_.decayed.hold(micro); });
-    s_.decayed.age(b_.p.store, stamp_ns);
-    fuse();
-    s_.decayed.settle(b_.p.store, {stamp_ns, static_cast<float>(own_s > 0 ? own_s : b_.p.params.decay_s)});
-  }
-
-  const Batch& b_;
-  RegionScratch& s_;
-  int rule_;
-  std::int64_t stamp_ns_ = 0;  // of the scan at hand
-};
 
 /// Compiling is independent of order. A single scan's few readings are not worth waking other threads.
 void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
@@ -258,10 +77,10 @@ void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule, 
       static_cast<std::int64_t>(s.plan.regions()),
       [](void* context, std::int64_t index, int worker) {
         const Batch& b = *static_cast<const Batch*>(context);
-        RegionTask task(b, b.s.workers[static_cast<std::size_t>(worker)]);
-        task.run(b.s.plan.region(static_cast<std::size_t>(index)));
-        b.s.stats[static_cast<std::size_t>(index)] = task.stats;
-        b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += task.tiles;
+        const auto [stats, tiles] = fuse_region(b, b.s.workers[static_cast<std::size_t>(worker)],
+                                                b.s.plan.region(static_cast<std::size_t>(index)));
+        b.s.stats[static_cast<std::size_t>(index)] = stats;
+        b.p.tiles_per_worker[static_cast<std::size_t>(worker)] += tiles;
       },
       &batch);
 }
@@ -289,6 +108,7 @@ bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rul
 
 Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   Report report;
+  const std::int64_t before_ns = p.store.now_ns;
   s.footprints.clear();
   std::size_t number = 0;
   s.scan_end.clear();
@@ -307,8 +127,13 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   }
   compile_all(s.footprints, p);
   const int threads = p.executor.concurrency();
-  bin(s.footprints, p.table, p.store, p.admission, threads, s.plan);
-  copy_what_views_see(s.plan, p.store, p.executor);
+  try {
+    bin(s.footprints, p.table, p.store, p.admission, threads, s.plan);
+    copy_what_views_see(s.plan, p.store, p.executor);
+  } catch (...) {  // no room: the scans did not come
+    p.store.now_ns = before_ns;
+    throw;
+  }
   const Shield shield(s.plan, p.admission, p.store);
   const kernels::RuleArgs rule = args_of(p.params, p.undo);
   s.stats.clear();
