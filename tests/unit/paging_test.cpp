@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -274,6 +276,33 @@ TEST(Paging, AFileThatCannotBeMadeOrWrittenIsNamedAndLosesNothing) {
     maps.both([&](Map& m) { m.integrate(s); });
   }
   ASSERT_EQ(maps.paged.hash(), maps.roomy.hash());
+}
+
+TEST(Paging, AForkedChildLeavesItsParentsTilesAlone) {
+  const auto d = testing::drive(Model::li2014, 40, 11);
+  Pair maps(*d, {.rule = Rule::pcr5}, "serial", scratch());
+  Places places(11);
+  for (int i = 0; i < 60; ++i) {
+    const Scan s = places.place(d->scans[static_cast<std::size_t>(i % 40)]);
+    maps.both([&](Map& m) { m.integrate(s); });
+  }
+  ASSERT_GT(maps.paged.paged_bytes(), 0u);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    int refused = 0;
+    try {
+      for (int i = 0; i < 60; ++i) maps.paged.integrate(places.place(d->scans[static_cast<std::size_t>(i % 40)]));
+    } catch (const std::system_error&) {
+      refused = 1;
+    }
+    maps.paged.clear();
+    _exit(refused == 1 ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  maps.expect_same();
 }
 
 }  // namespace

@@ -38,10 +38,19 @@ PageFile::PageFile(const std::filesystem::path& directory) : directory_(director
     if (file_ >= 0) unlink(name.c_str());
   }
   if (file_ < 0) fail("cannot be made", errno);
+  maker_ = getpid();
 }
 
 PageFile::~PageFile() {
   if (file_ >= 0) close(file_);
+}
+
+bool PageFile::ours() const noexcept { return maker_ == getpid(); }
+
+/// A wish: refused, the file stays as large as it is.
+void PageFile::punch(std::uint64_t offset, std::size_t bytes) noexcept {
+  if (!ours()) return;
+  fallocate(file_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(offset), static_cast<off_t>(bytes));
 }
 
 bool PageFile::possible(std::size_t bytes) noexcept {
@@ -50,11 +59,12 @@ bool PageFile::possible(std::size_t bytes) noexcept {
 }
 
 void PageFile::give_back_extent(std::uint64_t at) noexcept {
-  fallocate(file_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(at), kExtent);  // a wish
+  punch(at, kExtent);
   free_.push_back(at);
 }
 
 void PageFile::page_out(void* at, std::size_t bytes, std::uint64_t offset) {
+  if (!ours()) fail("belongs to the process that this one was forked from", EPERM);
   const char* from = static_cast<const char*>(at);
   for (std::size_t done = 0; done < bytes;) {
     const ssize_t n = pwrite(file_, from + done, bytes - done, static_cast<off_t>(offset + done));
@@ -70,7 +80,7 @@ bool PageFile::take_back(void* at, std::size_t bytes, std::uint64_t offset) noex
   if (mmap(at, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == MAP_FAILED)
     return false;
   madvise(at, bytes, MADV_HUGEPAGE);  // as its neighbours, so that the mappings join
-  fallocate(file_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(offset), static_cast<off_t>(bytes));
+  punch(offset, bytes);
   return true;
 }
 
@@ -80,6 +90,8 @@ PageFile::PageFile(const std::filesystem::path& directory) : directory_(director
   fail("this system maps no file over memory as paging needs it", ENOTSUP);
 }
 PageFile::~PageFile() = default;
+bool PageFile::ours() const noexcept { return false; }
+void PageFile::punch(std::uint64_t, std::size_t) noexcept {}
 bool PageFile::possible(std::size_t) noexcept { return false; }
 void PageFile::give_back_extent(std::uint64_t) noexcept {}
 void PageFile::page_out(void*, std::size_t, std::uint64_t) { fail("cannot be written", ENOTSUP); }

@@ -2,6 +2,7 @@
 // The file that cold tiles are paged to: without a name, so that it goes with the process however that ends. A tile's
 // bytes are written to it, then mapped from it over the memory where they lay: whoever reads there, views in other
 // threads among them, goes on reading the same bytes at the same place, and the system may drop and fetch them.
+// A forked child shares the file with its parent: it may read, and frees what it likes, but the file is its parent's.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +28,7 @@ class PageFile {
 
   /// What lies at `at` is from now on the file's at `offset`, read-only; both and bytes are multiples of the system's
   /// page. Throws std::system_error, naming the directory, when the file cannot be written or mapped: nothing has
-  /// changed then.
+  /// changed then; so it does in a forked child.
   void page_out(void* at, std::size_t bytes, std::uint64_t offset);
   /// Memory again at `at`, not set, and the file's part of it given back. False when the system refuses: what is there
   /// stays mapped and must not be used again.
@@ -36,9 +37,13 @@ class PageFile {
   [[nodiscard]] static bool possible(std::size_t bytes) noexcept;
 
  private:
+  /// Whether this process made the file, and so may change it: no forked child.
+  [[nodiscard]] bool ours() const noexcept;
+  void punch(std::uint64_t offset, std::size_t bytes) noexcept;
   [[noreturn]] void fail(const char* what, int error) const;
   std::string directory_;
   int file_ = -1;
+  long maker_ = 0;  // process
   std::uint64_t end_ = 0;
   std::vector<std::uint64_t> free_;
 };
