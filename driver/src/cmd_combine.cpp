@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // evigrid combine: rows of two masses each through one rule, at full precision, by the engine's own batch call.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // evigrid compare INPUT -o DIR: every wished rule × sensor model × robot over one input, in one table and one sheet. A
 // scene is cast once per robot, so that all rules see the same readings; its truth gives the scores.
+#include <CLI/CLI.hpp>
 #include <utility>
 
 #include "bag/frame_options.hpp"

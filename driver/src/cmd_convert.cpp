@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // evigrid convert IN -o OUT: other programs' maps to ours, ours to theirs, by their extensions.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>

@@ -2,6 +2,7 @@
 // evigrid cycle: a fleet of robots in a generated building, cycle by cycle, against a deadline. What is timed and what
 // the policies mean: docs/cycle.md.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <iostream>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // evigrid export MAP -o OUT: a saved map in another program's format.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <png.h>
 #include <zlib.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 // evigrid log FILE...: what a recorded log holds, before anything is made of it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
 
 #include <iostream>
 

@@ -2,6 +2,7 @@
 // evigrid map LOG... -o DIR: a recorded log becomes a map.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
 
 #include "bag/frame_options.hpp"
 #include "commands.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // evigrid model: what one reading says about points of its cone or beam, from the same functions that a map runs.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <iostream>
 #include <numbers>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // evigrid paper NAME|all -o DIR: the behaviours of a paper, its published figures beside ours, as a page and as JSON.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <iostream>
 

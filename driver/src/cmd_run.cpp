@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // evigrid run [SCENE] -o DIR: drive the robot of a scene, cast its readings, map them.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // evigrid train: the learned revision of a sensor's masses (Li et al. 2014), judged on readings that it has not seen.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -120,7 +121,9 @@ void add_train(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("train", "a learned revision of a sensor's masses, from readings beside true ranges");
   command->add_option("DATA", args->data, "CSV of `evigrid cast --truth`, or a log that holds true ranges")->required();
-  command->add_option("-o,--out", args->out, "the revision, a small JSON file, for --revision of `evigrid map`, run and model")
+  command
+      ->add_option("-o,--out", args->out,
+                   "the revision, a small JSON file, for --revision of `evigrid map`, run and model")
       ->required();
   command->add_option("--model", args->model, "sensor model whose masses are revised")->capture_default_str();
   command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable");

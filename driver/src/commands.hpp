@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One function a command: declares its options and what happens when it was called.
 #pragma once
-#include <CLI/CLI.hpp>
+#include "cli.hpp"
 
 namespace evigrid::driver {
 

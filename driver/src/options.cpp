@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <CLI/CLI.hpp>
 
 #include "error.hpp"
 #include "evigrid/combine.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options that several commands share, as the user gave them, and their translation into the engine's words.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+#include "cli.hpp"
 
 #include "evigrid/executor.hpp"
 #include "evigrid/map.hpp"

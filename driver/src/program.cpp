@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands together, and the three ways a program can end.
+#include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
 #include <new>

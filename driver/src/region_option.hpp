@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // --region (also --rect): a rectangle of a saved map in metres, of which alone the file is read.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <vector>
+#include "cli.hpp"
 
 #include "evigrid/types.hpp"
 

@@ -4,6 +4,7 @@
 #include "world_input.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -45,7 +46,8 @@ raycast::World load_world(const WorldOptions& o, std::optional<scenes::FloorPlan
   if (!o.up.empty() && !mesh) throw InputError("--up: is for meshes");
   if (!o.up.empty() && o.up != "y" && o.up != "z") throw InputError(fmt::format("--up: '{}' is neither y nor z", o.up));
   const bool image = !mesh && o.world != "building" && end != ".yaml" && end != ".yml" && end != ".map";
-  if (image && !o.resolution_m) throw InputError(fmt::format("--resolution: is missing, the m per pixel of {}", o.world));
+  if (image && !o.resolution_m)
+    throw InputError(fmt::format("--resolution: is missing, the m per pixel of {}", o.world));
   if (o.resolution_m && o.world == "building") throw InputError("--resolution: is for images and meshes");
   if (o.world == "building") {
     scenes::BuildingSpec building;
@@ -103,17 +105,19 @@ void add_tour(scenes::Scene& scene, const WorldOptions& o, const std::optional<s
       tour.start = {start.x_m, start.y_m};
       const scenes::Extent box = scenes::extent(scene.world);
       if (start.x_m < box.low.x_m || start.x_m > box.high.x_m || start.y_m < box.low.y_m || start.y_m > box.high.y_m) {
-        throw InputError(fmt::format("--start: ({:g}, {:g}) lies outside of the world, which is [{:.3f}, {:.3f}] x [{:.3f}, {:.3f}] m",
-                                     start.x_m, start.y_m, box.low.x_m, box.high.x_m, box.low.y_m, box.high.y_m));
+        throw InputError(fmt::format(
+            "--start: ({:g}, {:g}) lies outside of the world, which is [{:.3f}, {:.3f}] x [{:.3f}, {:.3f}] m",
+            start.x_m, start.y_m, box.low.x_m, box.high.x_m, box.low.y_m, box.high.y_m));
       }
       if (with_yaw) scene.trajectory.start = start;
     }
     scene.trajectory.waypoints = scenes::make_tour(scene.world, tour);
   } catch (const std::invalid_argument& bad) {
-    throw InputError(o.start.empty() ? fmt::format("{}: no --start is given, and in the widest place {}; a --start or a "
-                                                   "smaller --robot may help",
-                                                   o.world, bad.what())
-                                     : fmt::format("--start: {}", bad.what()));
+    throw InputError(o.start.empty()
+                         ? fmt::format("{}: no --start is given, and in the widest place {}; a --start or a "
+                                       "smaller --robot may help",
+                                       o.world, bad.what())
+                         : fmt::format("--start: {}", bad.what()));
   } catch (const std::length_error& large) {
     throw InputError(fmt::format("{}: {}", o.world, large.what()));
   }

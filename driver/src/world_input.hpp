@@ -2,10 +2,10 @@
 // Where a simulated run comes from: a scene, by file or name, or a bare world (a floor plan, a mesh, a generated
 // building) in which a robot is put and sent on a tour. Shared by `run` and `cast`.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include "cli.hpp"
 
 #include "simulated.hpp"
 

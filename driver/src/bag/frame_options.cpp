@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bag/frame_options.hpp"
+#include <CLI/CLI.hpp>
 
 namespace evigrid::driver {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // --base-frame, --fixed-frame, --topics: what a user may say of a ROS bag.
 #pragma once
-#include <CLI/CLI.hpp>
+#include "cli.hpp"
 
 #include "log/bag_options.hpp"
 

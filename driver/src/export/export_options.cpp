@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "export/export_options.hpp"
+#include <CLI/CLI.hpp>
 
 #include "region_option.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The options that export and convert share.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+#include "cli.hpp"
 
 #include "export/export.hpp"
 
