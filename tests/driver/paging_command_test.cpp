@@ -63,6 +63,16 @@ TEST(PageDir, AFleetOnALittleMemory) {
   const Ran full = cycle({"--memory-mb", "3"});
   EXPECT_EQ(full.code, 2);
   EXPECT_NE(full.err.find("--page-dir takes more"), std::string::npos) << full.err;
+  // Scan by scan what one call writes fits.
+  const std::vector<std::string> by_scan{"--policy", "backlog", "--slice", "1", "--json", "-"};
+  std::vector<std::string> on_little = by_scan;
+  on_little.insert(on_little.end(), {"--memory-mb", "3", "--page-dir", dir.path().string()});
+  const Ran roomy = cycle(by_scan), paged = cycle(on_little);
+  ASSERT_EQ(roomy.code, 0) << roomy.err;
+  ASSERT_EQ(paged.code, 0) << paged.err;
+  const Json a = Json::parse(roomy.out), b = Json::parse(paged.out);
+  EXPECT_GT(b["paged_bytes"], 0);
+  EXPECT_EQ(a["map_hash"], b["map_hash"]);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "paper/plan_part.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -35,6 +34,8 @@ std::optional<raycast::Wall> cut(const raycast::Wall& wall, const Window& w) {
   return raycast::Wall{begin > 0 ? at(begin) : wall.from, end < 1 ? at(end) : wall.to, wall.material};
 }
 
+}  // namespace
+
 std::array<Point, 4> corners(const raycast::Box& b) {
   const double c = std::cos(b.yaw_rad), s = std::sin(b.yaw_rad);
   std::array<Point, 4> out{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
@@ -44,8 +45,6 @@ std::array<Point, 4> corners(const raycast::Box& b) {
   }
   return out;
 }
-
-}  // namespace
 
 raycast::World part_around(const raycast::World& world, const std::vector<Point>& way, double reach_m) {
   Window w{way.front(), way.front()};

@@ -22,8 +22,6 @@ constexpr double kLook_m = 1;    // between two places of a way that are asked
 constexpr int kBeside = 2;       // cells: a wall on the border of two cells fills both
 constexpr int kNearby = 3;       // cells: the ends of a way may lie beside what is free
 
-double distance(Point a, Point b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
-
 }  // namespace
 
 double length_of(const std::vector<Point>& way) {

@@ -26,7 +26,6 @@ constexpr std::size_t kMostCandidates = 48;
 constexpr double kLeastCrossed_m = 4, kCrossing_m = 0.22,
                  kCrossingSpeed_m_s = 0.15;  // the other robot, as the paper's scene has it
 
-double distance(Point a, Point b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 Point along(Point p, double x, double y, double by) { return {p.x_m + by * x, p.y_m + by * y}; }
 
 double distance_to_way(Point p, const std::vector<Point>& way) {

@@ -16,9 +16,9 @@
 
 namespace evigrid::driver {
 
-TourRun map_tour(const PaperWorld& building, std::size_t most_scans, int threads) {
+TourRun map_tour(const PaperWorld& building, const std::string& plan, std::size_t most_scans, int threads) {
   const SceneTruth truth = scene_truth(building.scene, building.scene.map.cell_m);
-  if (!truth.grid) throw InputError("the true room: " + truth.why_not);
+  if (!truth.grid) throw InputError(plan + ": " + truth.why_not);
   const scenes::Simulation simulation(building.scene, *building.caster);
   const std::vector<scenes::Step> steps = simulation.run(0, std::min(most_scans, simulation.steps()), threads);
   TourRun run;
@@ -28,7 +28,7 @@ TourRun map_tour(const PaperWorld& building, std::size_t most_scans, int threads
         std::count_if(s.ranges_m.begin(), s.ranges_m.end(), [](float r) { return std::isfinite(r); }));
   }
   if (run.echoes == 0 && steps.size() == simulation.steps())
-    throw InputError("--world: no sonar hears anything on a tour of the plan: it is too open");
+    throw InputError(plan + ": no sonar hears anything on a tour of the plan: it is too open");
   const FieldRect field = field_of(building.scene);
   Progress progress("mapping the building");
   for (const Rule rule : {Rule::germ_pcr2, Rule::dempster}) {

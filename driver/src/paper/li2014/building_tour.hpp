@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The user's building without anybody in it, mapped on a tour by DSmT and by Dempster's rule from the same readings.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "out/layers.hpp"
@@ -23,7 +24,8 @@ struct TourRun {
 };
 
 /// @param most_scans the tour is cut off there. Throws InputError when the building cannot be scored, or no sonar hears
-/// anything on the whole way: the plan is too open.
-[[nodiscard]] TourRun map_tour(const PaperWorld& building, std::size_t most_scans, int threads);
+/// anything on the whole way: `plan`, which the message names, is too open.
+[[nodiscard]] TourRun map_tour(const PaperWorld& building, const std::string& plan, std::size_t most_scans,
+                               int threads);
 
 }  // namespace evigrid::driver

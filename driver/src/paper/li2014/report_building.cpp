@@ -8,8 +8,10 @@
 #include "paper/agreement.hpp"
 #include "paper/li2014/building.hpp"
 #include "paper/li2014/building_tour.hpp"
+#include "paper/li2014/cycle_findings.hpp"
 #include "paper/li2014/report.hpp"
 #include "paper/li2014/report_errands.hpp"
+#include "paper/plan_part.hpp"
 #include "paper/plan_picture.hpp"
 #include "picture/map_picture.hpp"
 
@@ -39,14 +41,8 @@ void add_tour(PaperResult& out, const PaperWorld& building, const TourRun& run) 
       [](const TourMap& m) { return m.score.near.recall; });
   add("the building: mistaken rate", "of the decided cells: share called what they are not, one cell forgiven",
       [](const TourMap& m) { return m.score.near.mistaken_rate; });
-  out.findings.push_back({"the cycle of 100 ms is kept while mapping the building",
-                          "100 ms",
-                          fmt::format("{:.2f} ms at most, {:.2f} on average", dsmt.most_cycle_ms, dsmt.mean_cycle_ms),
-                          Aim::reported,
-                          false,
-                          "fusion of one scan of 16 sonars, DSmT",
-                          {dsmt.most_cycle_ms, dsmt.mean_cycle_ms},
-                          true});
+  out.findings.push_back(cycle_kept("the cycle of 100 ms is kept while mapping the building", dsmt.most_cycle_ms,
+                                    dsmt.mean_cycle_ms, Aim::reported));
   Page& page = out.page;
   page.heading("The building, mapped");
   page.paragraph(how + fmt::format(". Cells of {:g} cm.", 100 * building.scene.map.cell_m));
@@ -64,23 +60,16 @@ void add_tour(PaperResult& out, const PaperWorld& building, const TourRun& run) 
   page.table(metrics.head, metrics.rows);
 }
 
-std::vector<raycast::Point> outline(const raycast::Box& b) {
-  std::vector<raycast::Point> out;
-  for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 1}}) {
-    const scenes::Pose p =
-        scenes::compose({b.centre.x_m, b.centre.y_m, b.yaw_rad}, {x * b.length_m / 2, y * b.width_m / 2, 0});
-    out.push_back({p.x_m, p.y_m});
-  }
-  return out;
-}
-
 void add_places(PaperResult& out, const PaperWorld& building, const std::optional<Patrol>& patrol,
                 const std::vector<Errand>& errands) {
   std::vector<PlanDrawn> drawn{{"the tour", building.scene.trajectory.waypoints, {150, 190, 220}}};
   if (patrol) {
     drawn.push_back({"the patrol", patrol->stretch, kPath});
     drawn.push_back({"where the person walks", {patrol->walk[0], patrol->walk[1]}, kThingColour});
-    for (const raycast::Box& b : patrol->things) drawn.push_back({"", outline(b), kThingColour});
+    for (const raycast::Box& b : patrol->things) {
+      const auto at = corners(b);
+      drawn.push_back({"", {at[0], at[1], at[2], at[3], at[0]}, kThingColour});
+    }
   }
   PlanDrawn ends{"start and goals", {building.scene.trajectory.waypoints.front()}, kStart, false};
   for (const Errand& e : errands) {
@@ -108,7 +97,7 @@ PaperResult li2014_in_building(const PaperOptions& o) {
   if (errands.empty())
     throw InputError(o.world + ": the robot has nowhere to go: all that it can reach lies within a metre");
   const std::optional<Patrol> patrol = find_patrol(building);
-  const TourRun tour = map_tour(building, o.quick ? kQuickScans : SIZE_MAX, o.threads);
+  const TourRun tour = map_tour(building, o.world, o.quick ? kQuickScans : SIZE_MAX, o.threads);
   std::vector<LeftOut> left_out{
       {"the U-trap", "is a board in the paper's room; a building has no such trap at a known place"},
       {"tables 1 to 3, the learned revision and 50 000 groups in a cycle",

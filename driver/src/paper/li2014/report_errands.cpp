@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "paper/li2014/germ_robot.hpp"
+#include "paper/li2014/cycle_findings.hpp"
 #include "paper/li2014/report.hpp"
 #include "picture/map_picture.hpp"
 #include "progress.hpp"
@@ -56,16 +56,15 @@ void add_errands(PaperResult& out, const PaperOptions& o, const scenes::Scene& b
       progress.show(i + 1, errands.size());
     }
   }
-  std::size_t reached = 0, field_reached = 0, walls = 0, movers = 0, plans = 0, avoided = 0, cycles = 0, late = 0;
-  double most_ms = 0, sum_ms = 0, longer = 0;
+  GermTally tally;
+  std::size_t reached = 0, field_reached = 0;
+  double longer = 0;
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const GermRun &a = runs[i].agents, &f = runs[i].field;
     reached += a.reached, field_reached += f.reached;
-    walls += a.touched_walls, movers += a.touched_mover, plans += a.plans, avoided += a.avoided;
-    cycles += a.cycle_ms.size();
+    tally.add(a);
     if (a.reached) longer = std::max(longer, a.way_m / runs[i].shortest_m);
-    for (const double ms : a.cycle_ms) most_ms = std::max(most_ms, ms), sum_ms += ms, late += ms > kCycle_ms;
     rows.push_back({fmt::format("{:.2f}, {:.2f}", errands[i].goal.x_m, errands[i].goal.y_m),
                     fmt::format("{:.1f}", runs[i].shortest_m), a.reached ? "reached" : "not reached",
                     fmt::format("{:.1f}", a.time_s), fmt::format("{:.1f}", a.way_m), std::to_string(a.plans),
@@ -94,30 +93,7 @@ void add_errands(PaperResult& out, const PaperOptions& o, const scenes::Scene& b
   out.findings.push_back({"the way driven, as a multiple of the shortest one", "",
                           reached == 0 ? std::string("none") : fmt::format("{:.2f} at most", longer), Aim::fact, false,
                           "of the goals reached; the shortest way is that of one who knows the plan", longer});
-  out.findings.push_back({"plans a run, cycles of the avoid agent",
-                          "A* only occasionally; avoid usually not needed",
-                          fmt::format("{:.1f} plans in {:.0f} cycles, {:.1f} avoiding", ratio(plans, runs.size()),
-                                      ratio(cycles, runs.size()), ratio(avoided, runs.size())),
-                          Aim::reported,
-                          false,
-                          "planned when an echo lies in the guard district, radius + 2 cm on either side of the way",
-                          {plans, cycles, avoided}});
-  out.findings.push_back({"cycles in which the body touched a wall, the other robot",
-                          "none",
-                          fmt::format("{}, {}", walls, movers),
-                          Aim::reported,
-                          false,
-                          "all runs of the agents; the other robot does not look where it goes",
-                          {walls, movers}});
-  out.findings.push_back({"cycles above 100 ms",
-                          "the system works without lags",
-                          fmt::format("{} of {}; {:.1f} ms at most, {:.2f} on average", late, cycles, most_ms,
-                                      sum_ms / static_cast<double>(std::max<std::size_t>(cycles, 1))),
-                          Aim::reported,
-                          false,
-                          "perception, localization, planning, behaviour and map of a cycle; the simulator left out",
-                          {late, cycles, most_ms},
-                          true});
+  for (Finding& f : cycle_findings(tally, Aim::reported)) out.findings.push_back(std::move(f));
   Page& page = out.page;
   page.heading("To goals in the building");
   page.paragraph(

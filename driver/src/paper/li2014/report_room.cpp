@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "paper/agreement.hpp"
+#include "paper/li2014/cycle_findings.hpp"
 #include "paper/li2014/dynamic_room.hpp"
 #include "paper/li2014/report.hpp"
 #include "picture/map_picture.hpp"
@@ -64,14 +65,8 @@ void add_dynamic_room(PaperResult& out, const PaperOptions& o, const PaperWorld&
   out.findings.push_back(
       {"cells in one cycle", "about 50 thousand groups", std::to_string(dsmt.most_cells), Aim::reported, false,
        fmt::format("pairs of a reading and a cell of {:g} cm, the most of one scan", cell_cm), dsmt.most_cells});
-  out.findings.push_back({"the cycle of 100 ms is kept while mapping",
-                          "100 ms",
-                          fmt::format("{:.2f} ms at most, {:.2f} on average", dsmt.most_cycle_ms, dsmt.mean_cycle_ms),
-                          paper_room ? Aim::target : Aim::reported,
-                          dsmt.most_cycle_ms < kCycle_ms,
-                          "fusion of one scan of 16 sonars",
-                          {dsmt.most_cycle_ms, dsmt.mean_cycle_ms},
-                          true});
+  out.findings.push_back(cycle_kept("the cycle of 100 ms is kept while mapping", dsmt.most_cycle_ms, dsmt.mean_cycle_ms,
+                                    paper_room ? Aim::target : Aim::reported));
   if (paper_room)
     for (Finding& f : agreement("DSmT's map", dsmt.score, kFloors)) out.findings.push_back(std::move(f));
   Page& page = out.page;

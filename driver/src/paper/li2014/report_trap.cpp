@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "paper/li2014/germ_robot.hpp"
+#include "paper/li2014/cycle_findings.hpp"
 #include "paper/li2014/report.hpp"
 #include "picture/map_picture.hpp"
 #include "progress.hpp"
@@ -34,16 +34,14 @@ void add_trap(PaperResult& out, const PaperOptions& o) {
     return static_cast<std::size_t>(
         std::count_if(runs.begin(), runs.end(), [](const GermRun& r) { return r.reached; }));
   };
-  std::size_t walls = 0, movers = 0, plans = 0, avoided = 0, cycles = 0, late = 0;
-  double way = 0, most_ms = 0, sum_ms = 0, longest = 0;
+  GermTally tally;
+  double way = 0, longest = 0;
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < seeds; ++i) {
     const GermRun &a = agents[i], &f = field[i];
-    walls += a.touched_walls, movers += a.touched_mover, plans += a.plans, avoided += a.avoided,
-        cycles += a.cycle_ms.size();
+    tally.add(a);
     way += a.way_m / static_cast<double>(seeds);
     longest = std::max(longest, a.way_m);
-    for (const double ms : a.cycle_ms) most_ms = std::max(most_ms, ms), sum_ms += ms, late += ms > kCycle_ms;
     rows.push_back({std::to_string(world.scene.trajectory.seed + i), a.reached ? "reached" : "not reached",
                     fmt::format("{:.1f}", a.time_s), fmt::format("{:.2f}", a.way_m), std::to_string(a.plans),
                     std::to_string(a.without_way), std::to_string(a.avoided),
@@ -73,30 +71,7 @@ void add_trap(PaperResult& out, const PaperOptions& o) {
                           false,
                           "the same runs",
                           {way, longest}});
-  out.findings.push_back({"plans a run, cycles of the avoid agent",
-                          "A* only occasionally; avoid usually not needed",
-                          fmt::format("{:.1f} plans in {:.0f} cycles, {:.1f} avoiding", ratio(plans, seeds),
-                                      ratio(cycles, seeds), ratio(avoided, seeds)),
-                          Aim::reported,
-                          false,
-                          "planned when an echo lies in the guard district, radius + 2 cm on either side of the way",
-                          {plans, cycles, avoided}});
-  out.findings.push_back({"cycles in which the body touched a wall, the other robot",
-                          "none",
-                          fmt::format("{}, {}", walls, movers),
-                          Aim::reported,
-                          false,
-                          "all runs of the agents",
-                          {walls, movers}});
-  out.findings.push_back({"cycles above 100 ms",
-                          "the system works without lags",
-                          fmt::format("{} of {}; {:.1f} ms at most, {:.2f} on average", late, cycles, most_ms,
-                                      sum_ms / static_cast<double>(cycles)),
-                          Aim::target,
-                          late == 0,
-                          "perception, localization, planning, behaviour and map of a cycle; the simulator left out",
-                          {late, cycles, most_ms},
-                          true});
+  for (Finding& f : cycle_findings(tally, Aim::target)) out.findings.push_back(std::move(f));
   Page& page = out.page;
   page.heading("Out of the U-shaped trap");
   page.begin_row();
