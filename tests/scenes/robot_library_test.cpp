@@ -60,6 +60,17 @@ TEST(Library, EveryRobotAndEverySceneLoads) {
   EXPECT_TRUE(find_embedded(embedded_scenes(), "no such").empty());
 }
 
+/// Real rooms throw sound away somewhere; what a scene's notes say of its surfaces, its world has.
+TEST(Library, RoomsOfRealExperimentsLoseEchoes) {
+  for (const char* name : {"default", "hughes1992", "hughes1992_gymnasium", "hughes1992_tool_room", "li2014",
+                           "li2014_drift", "li2014_utrap"}) {
+    SCOPED_TRACE(name);
+    const Scene s = parse_scene(std::string(find_embedded(embedded_scenes(), name)), name);
+    ASSERT_FALSE(s.world.polygons.empty() && s.world.boxes.empty());
+    for (const auto& p : s.world.polygons) EXPECT_LT(p.material.critical_incidence_rad, 1.4);
+  }
+}
+
 TEST(Library, NobodyDrivesIntoAnything) {
   for (const Embedded& scene : embedded_scenes()) {
     SCOPED_TRACE(scene.name);

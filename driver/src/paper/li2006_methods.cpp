@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "error.hpp"
 #include "evigrid/combine.hpp"
 #include "mapping.hpp"
@@ -19,9 +17,7 @@ namespace evigrid::driver::li2006 {
 Drive make_drive(const PaperOptions& o, bool mirrors) {
   scenes::Scene scene = paper_scene(o, "li2006", "pioneer16");
   if (mirrors) {
-    const raycast::Material mirror{25 * std::numbers::pi / 180, 0};
-    for (raycast::Polygon& p : scene.world.polygons) p.material = mirror;
-    for (raycast::Box& b : scene.world.boxes) b.material = mirror;
+    cover_all(scene.world, 25);
     scene.echo.second_bounce = true;
   }
   SceneTruth truth = scene_truth(scene, scene.map.cell_m);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "paper/paper_world.hpp"
 
+#include <numbers>
+
 #include "evigrid/scenes/simulate.hpp"
 #include "world_input.hpp"
 
@@ -28,6 +30,13 @@ scenes::Scene paper_scene(const PaperOptions& o, const char* name, const char* r
   }
   if (o.seed != 0) scene.trajectory.seed = o.seed;
   return scene;
+}
+
+void cover_all(raycast::World& world, double critical_incidence_deg) {
+  const raycast::Material material{critical_incidence_deg * std::numbers::pi / 180, 0};
+  for (raycast::Wall& w : world.walls) w.material = material;
+  for (raycast::Polygon& p : world.polygons) p.material = material;
+  for (raycast::Box& b : world.boxes) b.material = material;
 }
 
 }  // namespace evigrid::driver

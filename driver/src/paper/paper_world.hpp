@@ -22,4 +22,7 @@ struct PaperWorld {
 /// Throws InputError.
 [[nodiscard]] scenes::Scene paper_scene(const PaperOptions& options, const char* scene, const char* robot);
 
+/// All that stands is of one material that throws sound away beyond this angle to its normal.
+void cover_all(raycast::World& world, double critical_incidence_deg);
+
 }  // namespace evigrid::driver

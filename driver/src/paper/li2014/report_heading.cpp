@@ -64,7 +64,7 @@ void add_heading(PaperResult& out, const PaperOptions& o, const PaperWorld& worl
                                       occupied_most_rad / kDegree),
                           Aim::fact,
                           false,
-                          "the same runs; mostly better, but some lose their hold",
+                          "the same runs: many lose their hold",
                           {occupied_alone, occupied_most_rad}});
   out.findings.push_back({"cycle with heading correction", "100 ms", fmt::format("{:.1f} ms at most", most_ms),
                           paper_room ? Aim::target : Aim::reported, most_ms < kCycle_ms,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why Dempster's rule shows A and B in our room and not in the paper's: real surfaces throw sound away that meets them
-// at a slant, so that a sonar hears what lies behind a thing and calls the thing's place empty.
+// What the surfaces decide: those that throw sound away at a slant let a sonar hear what lies behind a thing, and the
+// thing's place is called empty. The room states its own; here all of it is of one, from echoing to a mirror.
 #include <fmt/format.h>
 
 #include "paper/li2014/dynamic_room.hpp"
@@ -17,9 +17,7 @@ void add_specular(PaperResult& out, const PaperOptions& o, const scenes::Scene& 
   Progress progress("slanting surfaces");
   for (const double angle : angles) {
     scenes::Scene scene = room;
-    const raycast::Material material{angle * kDegree, 0};
-    for (raycast::Polygon& p : scene.world.polygons) p.material = material;
-    for (raycast::Box& b : scene.world.boxes) b.material = material;
+    cover_all(scene.world, angle);
     const RoomRun run =
         map_dynamic_room(PaperWorld(std::move(scene)), {{Rule::germ_pcr2, 1}, {Rule::dempster, 1}}, o.quick, o.threads);
     const RoomResult &dsmt = run.results[0], &dst = run.results[1];
@@ -34,17 +32,14 @@ void add_specular(PaperResult& out, const PaperOptions& o, const scenes::Scene& 
   out.findings.push_back({"A and B where surfaces throw sound away beyond a critical incidence: DSmT / Dempster", "",
                           ours, Aim::fact, false,
                           "the same drive, walls and things of one critical incidence; share of the outline", values});
-  out.page.heading("Why Dempster's rule shows A and B here");
+  out.page.heading("What the surfaces decide");
   out.page.paragraph(
-      "In the room above every surface echoes at every slant. Real ones throw sound away that meets them beyond a "
-      "critical "
-      "incidence: the sonar then hears what lies behind, and the thing's place is called empty, dogmatically (the "
-      "model "
-      "leaves nothing unknown before the reading), so that one such reading outweighs several that hear the thing. "
-      "DSmT is "
-      "brought back by the next of those, Dempster's rule is not: it loses B wholly, and most of A, and that is what "
-      "the "
-      "paper shows. What the surfaces of its room were, it does not say.");
+      "The paper's field is a real one; what its surfaces were, it does not say. Ours are those of the embedded "
+      "furnished room, by what each thing is: plaster around (sound is thrown away beyond 35 degrees to the normal), "
+      "A and B of wood (45), the person in cloth (75). A sonar whose sound is thrown away hears what lies behind, and "
+      "the thing's place is called empty, dogmatically (the model leaves nothing unknown before the reading), so that "
+      "one such reading outweighs several that hear the thing. DSmT is brought back by the next of those, Dempster's "
+      "rule is not. Here everything that stands is of one critical incidence; 90: it echoes at every slant.");
   out.page.table({"critical incidence, degrees", "A: DSmT / Dempster", "B: DSmT / Dempster", "person: DSmT / Dempster"},
                  rows);
 }
