@@ -50,7 +50,7 @@ class RegionTask {
     const ConeFootprint& cone = plan.cone[reaches[0].footprint];
     for (const Reach& r : reaches) {
       TileWork& w = plan.tiles[r.tile];
-      w.reached |= s_.list.add(cone, plan.cones.bands(cone), *w.tile, b_.p.store.planes());
+      w.reached |= s_.list.add(b_.p.table, cone, plan.cones.bands(cone), *w.tile, b_.p.store.planes());
     }
     s_.pending.push_back({&f, from, s_.list.marks()});
     if (s_.list.size() > kEnough) fuse_cones();

@@ -87,6 +87,27 @@ struct ConeBands {
   float* cut = nullptr;         // cut[c · capacity + band]
 };
 
+/// The same of one band, in whole micro-tiles; six are used.
+struct ConeCuts {
+  std::int32_t column[8];
+};
+
+/// One tile for one cone.
+struct ConeTile {
+  float* cells = nullptr;
+  int step = 0;                          // floats in a micro-tile
+  int first_row = 0, end_row = 0;        // those of the tile's rows of micro-tiles that have a band
+  int first_band = 0, first_column = 0;  // of the tile, counted as the bands count
+  float x0 = 0, y0 = 0;                  // offset of the tile's first cell centre from the apex, exact
+};
+/// Where the micro-tiles of a zone are to be written: room for kMicrosPerTile + kListAtOnce.
+struct ListedMicros {
+  float** cells = nullptr;
+  float *x = nullptr, *y = nullptr;
+  int count = 0;  // the answer
+};
+inline constexpr int kListAtOnce = 16;
+
 /// The micro-tiles of a tile for one fan: those with nothing but empty cells, those to be looked at cell by cell, and
 /// of the latter those near the apex or behind the fan, whose cells find their beams by an angle of their own. Numbers
 /// of micro-tiles are floats here, as the lanes write them. Room for whole packs behind each list.
@@ -141,6 +162,9 @@ struct KernelTable {
   std::string_view name;
   int lanes;  // floats in one vector
   void (*cone_bands)(const ConeReading&, float x0, float y0, ConeBands&);
+  /// The micro-tiles of one tile, by zone, none twice. Answers which of the tile's 8 × 8 squares of 2 × 2 micro-tiles
+  /// they lie in, row-major from the lowest bit.
+  std::uint64_t (*list_cone)(const ConeCuts* bands, const ConeTile&, ListedMicros* zones);
   void (*fuse_cone[kRules][kConeModels])(const ConeArgs&, const ConeReading&, Stats&);
   void (*compile_fan)(const FanType&, const SensorPose&, Fan&);
   void (*select_fan)(const FanReading&, float x0, float y0, FanMicros&);  // (x0, y0) as in TileArgs

@@ -25,16 +25,17 @@ struct ConeFootprint {
 /// The footprints of a batch of cones.
 class ConeFootprints {
  public:
-  using Cuts = std::array<std::int32_t, 8>;  // six are used
   void clear() noexcept { bands_.clear(); }
   ConeFootprint find(const kernels::KernelTable&, const kernels::ConeReading&);
-  [[nodiscard]] const Cuts* bands(const ConeFootprint& f) const noexcept { return bands_.data() + f.first_band; }
+  [[nodiscard]] const kernels::ConeCuts* bands(const ConeFootprint& f) const noexcept {
+    return bands_.data() + f.first_band;
+  }
   /// Calls visit(TileIndex) for each tile that may be touched.
   template <class Visit>
   void each_tile(const ConeFootprint&, Visit visit) const;
 
  private:
-  std::vector<Cuts> bands_;
+  std::vector<kernels::ConeCuts> bands_;
   std::vector<float> cuts_;
 };
 
@@ -46,7 +47,8 @@ class ConeList {
   [[nodiscard]] int size() const noexcept { return count_[0] + count_[1] + count_[2]; }
   void clear() noexcept { count_ = {}; }
   /// What the footprint may touch of one tile; answers the blocks that this lies in.
-  BlockMask add(const ConeFootprint&, const ConeFootprints::Cuts* bands, const Tile&, int planes);
+  BlockMask add(const kernels::KernelTable&, const ConeFootprint&, const kernels::ConeCuts* bands, const Tile&,
+                int planes);
   /// What was listed between two marks.
   [[nodiscard]] kernels::ConeArgs args(const Marks& from, const Marks& to) const noexcept;
 
@@ -54,10 +56,16 @@ class ConeList {
   struct Zone {
     std::vector<float*> cells;
     std::vector<float> x, y;
-    void grow(std::size_t most) {
-      cells.resize(most);
-      x.resize(most);
-      y.resize(most);
+    /// For what one more tile may have, behind what is listed.
+    kernels::ListedMicros room(int listed) {
+      constexpr std::size_t kTile = kernels::kMicrosPerTile + std::max(kernels::kListAtOnce, kernels::kConeAhead);
+      const auto had = static_cast<std::size_t>(listed);
+      if (cells.size() < had + kTile) {
+        cells.resize(2 * (had + kTile));
+        x.resize(cells.size());
+        y.resize(cells.size());
+      }
+      return {cells.data() + had, x.data() + had, y.data() + had, 0};
     }
   };
   std::array<Zone, kernels::kConeZones> zones_;
@@ -67,15 +75,16 @@ class ConeList {
 template <class Visit>
 void ConeFootprints::each_tile(const ConeFootprint& f, Visit visit) const {
   constexpr int kNone = 1 << 30;
-  const Cuts* const band = bands(f);
+  const kernels::ConeCuts* const band = bands(f);
   for (int i = 0; i < f.bands;) {
     const std::int64_t y = (f.row + i) >> 4;
     const int end = static_cast<int>(std::min<std::int64_t>(f.bands, y * 16 + 16 - f.row));
     int from = kNone, to = -kNone;
     for (; i < end; ++i) {
-      const bool any = band[i][0] < band[i][5];
-      from = any ? std::min(from, band[i][0]) : from;
-      to = any ? std::max(to, band[i][5]) : to;
+      const auto& cut = band[i].column;
+      const bool any = cut[0] < cut[5];
+      from = any ? std::min(from, cut[0]) : from;
+      to = any ? std::max(to, cut[5]) : to;
     }
     if (from > to) continue;
     const std::int64_t last = (f.column + to - 1) >> 4;
