@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// "One number" of a SIMD table's batched combination: one vector. A rule is a short chain and there is nothing to share
-// between cells, so the processor interleaves the steps of a plain loop by itself; the packs of lane_highway.hpp only
-// spilled registers here. Included by exactly one batch_*.cpp per target, after HWY_TARGET is set.
+// "One number" of a SIMD table's batched combination and of the bands of a cone: one vector. A rule is a short chain
+// and there is nothing to share between cells, so the processor interleaves the steps of a plain loop by itself; the
+// packs of lane_highway.hpp only spilled registers here. A cone has few bands: a pack would be mostly empty. Included
+// by exactly one batch_*.cpp per target, after HWY_TARGET is set.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -45,6 +46,8 @@ HWY_INLINE VectorMask operator>(Vector a, Vector b) { return {hn::Gt(a.v, b.v)};
 HWY_INLINE VectorMask both(VectorMask a, VectorMask b) { return {hn::And(a.m, b.m)}; }
 HWY_INLINE VectorMask either(VectorMask a, VectorMask b) { return {hn::Or(a.m, b.m)}; }
 HWY_INLINE Vector mul_add(Vector a, Vector b, Vector c) { return Vector(hn::MulAdd(a.v, b.v, c.v)); }
+HWY_INLINE Vector neg_mul_add(Vector a, Vector b, Vector c) { return Vector(hn::NegMulAdd(a.v, b.v, c.v)); }
+HWY_INLINE Vector root(Vector a) { return Vector(hn::Sqrt(a.v)); }
 HWY_INLINE Vector select(VectorMask m, Vector a, Vector b) { return Vector(hn::IfThenElse(m.m, a.v, b.v)); }
 /// As the scalar a > b ? a : b; no operand is ever NaN and no result depends on the sign of a zero.
 HWY_INLINE Vector max_of(Vector a, Vector b) { return Vector(hn::Max(a.v, b.v)); }
@@ -57,6 +60,7 @@ struct Lanes {
 
   static HWY_INLINE V load_flat(const float* p) { return V(hn::LoadU(Tag(), p)); }
   static HWY_INLINE void store_flat(float* p, V v) { hn::StoreU(v.v, Tag(), p); }
+  static HWY_INLINE V floor(V x) { return V(hn::Floor(x.v)); }
   static HWY_INLINE V load_unorm16(const std::uint16_t* p) {
     const hn::Rebind<std::uint16_t, Tag> half;
     const hn::RebindToSigned<Tag> di;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A target's batched combination, every rule. The lanes are one micro-tile wide here, not four: a rule is a short chain
-// and its 64 cells in flight spilled registers, whereas the processor interleaves the steps of a plain loop by itself.
-// A namespace of its own keeps these lanes apart from the map's. Included by exactly one file per target.
+// A target's batched combination, every rule, and the bands of a cone. The lanes are one micro-tile wide here, not
+// four: a rule is a short chain and its 64 cells in flight spilled registers, whereas the processor interleaves the
+// steps of a plain loop by itself. A namespace of its own keeps these lanes apart from the map's. Included by exactly
+// one file per target.
 #pragma once
 #include "kernels/cell/rule_batch.hpp"
 #include "kernels/cell/rule_dempster.hpp"
 #include "kernels/cell/rule_pcr.hpp"
 #include "kernels/cell/rule_pcr14.hpp"
 #include "kernels/cell/rule_yager.hpp"
+#include "kernels/row/cone_bands.hpp"
 #include "kernels/row/dense.hpp"
 #include "kernels/row/tables.hpp"
 
@@ -26,6 +28,7 @@ inline void fill_batch_same(KernelTable& t, int rule, int other) {
 }
 
 void fill_batch(KernelTable& t) {
+  t.cone_bands = cone_bands;
   fill_batch_rule<Dempster>(t, kDempster);
   fill_batch_rule<Yager>(t, kYager);
   fill_batch_same(t, kDsmh, kYager);

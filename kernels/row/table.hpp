@@ -7,7 +7,6 @@
 #include "kernels/cell/rule_dempster.hpp"
 #include "kernels/cell/rule_yager.hpp"
 #include "kernels/row/compile_fan.hpp"
-#include "kernels/row/cone_bands.hpp"
 #include "kernels/row/list_cone.hpp"
 #include "kernels/row/rule_table.hpp"
 #include "kernels/row/select_fan.hpp"
@@ -20,7 +19,6 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   t.lanes = lanes;
   t.compile_fan = compile_fan;
   t.select_fan = select_fan;
-  t.cone_bands = cone_bands;
   t.list_cone = list_cone;
   fill_rule<Dempster>(t, kDempster);
   fill_rule<Yager>(t, kYager);

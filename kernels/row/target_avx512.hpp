@@ -12,12 +12,12 @@
 #undef HWY_TARGET
 #define HWY_TARGET HWY_AVX3
 #define EVIGRID_BATCH_NAMESPACE avx512_batch
+#define EVIGRID_LAMBDA HWY_ATTR
 #ifdef EVIGRID_BATCH
 #define EVIGRID_TARGET_NAMESPACE EVIGRID_BATCH_NAMESPACE
 #include "kernels/cell/lane_vector.hpp"
 #else
 #define EVIGRID_TARGET_NAMESPACE avx512
 #define EVIGRID_TARGET_UNROLL 4
-#define EVIGRID_LAMBDA HWY_ATTR
 #include "kernels/cell/lane_highway.hpp"
 #endif
