@@ -63,10 +63,15 @@ struct FirstCells {
     split_product(e.rx * dy - e.ry * dx, right_high[at], right_low[at]);
     if constexpr (kExcess) excess[at] = static_cast<float>(dx * dx + dy * dy - e.ring);
   }
+  /// x and y are readable up to the next multiple of kAtOnce: whole vectors, without a rest to be counted.
+  static constexpr int kAtOnce = 8;
   template <bool kExcess>
   void fill(const ConeReading& q, const float* x, const float* y, int count) {
+    static_assert(kMost % kAtOnce == 0);
     const Edges e(q);
-    for (int i = 0; i < count; ++i) set<kExcess>(e, x[i], y[i], i);
+    for (int i = 0; i < count; i += kAtOnce) {
+      for (int j = i; j < i + kAtOnce; ++j) set<kExcess>(e, x[j], y[j], j);
+    }
     for (int i = count; i % Lanes::kMicros != 0; ++i) {
       left_high[i] = right_high[i] = -1e6f;
       left_low[i] = right_low[i] = excess[i] = 0;

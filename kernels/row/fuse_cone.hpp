@@ -80,14 +80,12 @@ void fuse_zone(const ConeArgs& a, const ZoneMicros& z, const ConeReading& q, con
   constexpr int kPlanes = State::kPlanes + (kConflict ? 1 : 0);
   constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
   alignas(64) float spare[kMostPlanes * kMicroCells] = {};
-  alignas(64) float x[FirstCells::kMost], y[FirstCells::kMost];
   FirstCells first;
   Lanes::V max_k = max_k_out;
   for (int begin = 0; begin < z.count; begin += FirstCells::kMost) {
     const int n = z.count - begin < FirstCells::kMost ? z.count - begin : FirstCells::kMost;
-    first.fill<kAsksExcess<Model>>(q, z.x + begin, z.y + begin, n);
-    for (int i = 0; i < n; ++i) x[i] = z.x[begin + i], y[i] = z.y[begin + i];
-    for (int i = n; i % Lanes::kMicros != 0; ++i) x[i] = y[i] = 1e6f;
+    const float *const x = z.x + begin, *const y = z.y + begin;  // behind the last: anything, which lies outside
+    first.fill<kAsksExcess<Model>>(q, x, y, n);
     for (int i = 0; i < n; i += Lanes::kMicros) {
       const ConeStep step(z, begin + i, spare);
       for (int m = 0; m < Lanes::kMicros; ++m) {

@@ -55,7 +55,8 @@ enum ConeZone : int {
 };
 
 /// The micro-tiles of one zone: where their cells lie, and the offset of their first cell centre from the apex, exact.
-/// `cells` is readable for kConeAhead entries more: the cells of what comes next are fetched ahead.
+/// All three are readable for kConeAhead entries more: the cells of what comes next are fetched ahead, and offsets are
+/// taken by whole vectors.
 struct ZoneMicros {
   float* const* cells = nullptr;
   const float *x = nullptr, *y = nullptr;

@@ -16,14 +16,16 @@ void measure_cone(const ConeArgs& a, const ConeReading& q, Measured& out) {
   const ConeLanes lanes(q);
   FirstCells first;
   constexpr int kParts = Lanes::kLanes < kMicroCells ? kMicroCells / Lanes::kLanes : 1;
-  alignas(64) float x[Lanes::kMicros], y[Lanes::kMicros];
+  constexpr int kRoom = FirstCells::kAtOnce;  // its lists need not be readable beyond their end
+  static_assert(kRoom >= Lanes::kMicros);
+  alignas(64) float x[kRoom], y[kRoom];
   for (int i = 0; i < z.count; i += Lanes::kMicros) {
     const int n = z.count - i < Lanes::kMicros ? z.count - i : Lanes::kMicros;
-    first.fill<kAsksExcess<Model>>(q, z.x + i, z.y + i, n);
-    for (int m = 0; m < Lanes::kMicros; ++m) {
+    for (int m = 0; m < kRoom; ++m) {
       x[m] = m < n ? z.x[i + m] : 1e6f;
       y[m] = m < n ? z.y[i + m] : 1e6f;
     }
+    first.fill<kAsksExcess<Model>>(q, x, y, n);
     std::uint64_t bits = 0;
     for (int part = 0; part < kParts; ++part) {
       Polar<V> at;

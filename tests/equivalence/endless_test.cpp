@@ -42,12 +42,14 @@ TEST(Endless, AMillionUpdatesOfACellStayMasses) {
         double worst = 0;
         for (int n = 0; n < kUpdates; ++n) {
           const ConeReading& q = readings[static_cast<std::size_t>(turns[static_cast<std::size_t>(n) % turns.size()])];
-          const float x = static_cast<float>(static_cast<double>(4 * (micro % kMicrosPerSide) - q.i0) - q.fx);
-          const float y = static_cast<float>(static_cast<double>(4 * (micro / kMicrosPerSide) - q.j0) - q.fy);
+          const float x[1 + kConeAhead] = {
+              static_cast<float>(static_cast<double>(4 * (micro % kMicrosPerSide) - q.i0) - q.fx)};
+          const float y[1 + kConeAhead] = {
+              static_cast<float>(static_cast<double>(4 * (micro / kMicrosPerSide) - q.j0) - q.fy)};
           ConeArgs args;
           args.planes = static_cast<int>(planes.size());
           args.conflict_plane = true;
-          args.zone[kRim] = {listed, &x, &y, 1};
+          args.zone[kRim] = {listed, x, y, 1};
           table.fuse_cone[rule][model](args, q, stats);
           if (n % kLookEvery != 0 && n + 1 != kUpdates) continue;
           alignas(64) float masses[4 * kMicroCells];

@@ -52,18 +52,23 @@ class List {
   void add(int zone, int column, int row) {
     if (column < 0 || column >= kSide || row < 0 || row >= kSide) return;
     Zone& z = zones_[zone];
+    const auto n = static_cast<std::size_t>(z.count++);
+    z.cells.resize(n), z.x.resize(n), z.y.resize(n);
     z.cells.push_back(square_.micro(column, row));
     z.x.push_back(static_cast<float>(static_cast<double>(4 * column - q_.i0) - q_.fx));
     z.y.push_back(static_cast<float>(static_cast<double>(4 * row - q_.j0) - q_.fy));
   }
-  [[nodiscard]] int count(int zone) const { return static_cast<int>(zones_[zone].x.size()); }
+  [[nodiscard]] int count(int zone) const { return zones_[zone].count; }
   [[nodiscard]] ConeArgs args() {
     ConeArgs a;
     a.planes = square_.planes();
     a.conflict_plane = a.rule.con = a.rule.last = true;
     for (int z = 0; z < kConeZones; ++z) {
       const int n = count(z);
-      zones_[z].cells.resize(static_cast<std::size_t>(n + kConeAhead));
+      const auto readable = static_cast<std::size_t>(n + kConeAhead);
+      zones_[z].cells.resize(readable);
+      zones_[z].x.resize(readable);
+      zones_[z].y.resize(readable);
       a.zone[z] = {zones_[z].cells.data(), zones_[z].x.data(), zones_[z].y.data(), n};
     }
     return a;
@@ -71,6 +76,7 @@ class List {
 
  private:
   struct Zone {
+    int count = 0;
     std::vector<float*> cells;
     std::vector<float> x, y;
   };
