@@ -26,6 +26,7 @@ ConeFootprint ConeFootprints::find(const kernels::KernelTable& table, const kern
   kernels::ConeCuts* const out = bands_.data() + f.first_band;
   for (int i = 0; i < f.bands; ++i) {
     for (int c = 0; c < kCuts; ++c) out[i].column[c] = static_cast<std::int32_t>(b.cut[c * b.capacity + i]);
+    f.micros += out[i].column[kCuts - 1] - out[i].column[0];
   }
   return f;
 }

@@ -20,6 +20,7 @@ struct ConeFootprint {
   float x0 = 0, y0 = 0;              // offset of its first cell centre from the apex
   std::uint32_t first_band = 0;      // place in ConeFootprints
   int bands = 0;
+  int micros = 0;  // that it may touch
 };
 
 /// The footprints of a batch of cones.
