@@ -52,8 +52,7 @@ class List {
   void add(int zone, int column, int row) {
     if (column < 0 || column >= kSide || row < 0 || row >= kSide) return;
     Zone& z = zones_[zone];
-    const auto n = static_cast<std::size_t>(z.count++);
-    z.cells.resize(n), z.x.resize(n), z.y.resize(n);
+    ++z.count;
     z.cells.push_back(square_.micro(column, row));
     z.x.push_back(static_cast<float>(static_cast<double>(4 * column - q_.i0) - q_.fx));
     z.y.push_back(static_cast<float>(static_cast<double>(4 * row - q_.j0) - q_.fy));

@@ -66,8 +66,11 @@ TEST(Library, RoomsOfRealExperimentsLoseEchoes) {
                            "li2014_drift", "li2014_utrap"}) {
     SCOPED_TRACE(name);
     const Scene s = parse_scene(std::string(find_embedded(embedded_scenes(), name)), name);
-    ASSERT_FALSE(s.world.polygons.empty() && s.world.boxes.empty());
+    ASSERT_FALSE(s.world.polygons.empty());
     for (const auto& p : s.world.polygons) EXPECT_LT(p.material.critical_incidence_rad, 1.4);
+    if (std::string_view(name).starts_with("li2014")) {
+      for (const auto& b : s.world.boxes) EXPECT_LT(b.material.critical_incidence_rad, 1.4);
+    }
   }
 }
 

@@ -87,6 +87,16 @@ Sweep sweep(Planned dempster, Planned bayes, const Room& room, bool quick) {
   return out;
 }
 
+/// One log mapped by either rule, the ways planned on both.
+struct ByBoth {
+  Planned dempster, bayes;
+};
+ByBoth by_both(const Log& log, const Room& room, const StepCost& cost, int threads) {
+  ByBoth out{fused(log, Rule::dempster, room, threads), fused(log, Rule::bayes, room, threads)};
+  for (Planned* map : {&out.dempster, &out.bayes}) plan_ways(*map, room, cost);
+  return out;
+}
+
 struct Slanting {
   std::vector<std::vector<std::string>> rows;
   std::string ours;
@@ -94,16 +104,13 @@ struct Slanting {
 };
 
 /// The same way and seed among surfaces that throw sound away beyond a critical incidence.
-Slanting among_slanting_surfaces(const PaperOptions& o, const StepCost& cost) {
+Slanting among_slanting_surfaces(const PaperOptions& o, const Room& room, const StepCost& cost) {
   Slanting out;
   for (const double angle : o.quick ? std::vector<double>{35} : std::vector<double>{60, 45, 35, 25}) {
-    Room room = make_room(o);
     scenes::Scene scene = room.world.scene;
     cover_all(scene.world, angle);
-    room.world = PaperWorld(std::move(scene));
-    const Log log = with_oriolo_lasers(sensed(room.world, room.world.scene.trajectory.seed));
-    Planned d = fused(log, Rule::dempster, room, o.threads), b = fused(log, Rule::bayes, room, o.threads);
-    for (Planned* map : {&d, &b}) plan_ways(*map, room, cost);
+    const std::uint64_t seed = scene.trajectory.seed;
+    const auto [d, b] = by_both(with_oriolo_lasers(sensed(PaperWorld(std::move(scene)), seed)), room, cost, o.threads);
     const Compared c = compared(d, b);
     const auto pair = [](const std::array<double, 2>& v) { return fmt::format("{:.3f} / {:.3f}", v[0], v[1]); };
     const std::array<double, 2> off{d.off_ideal, b.off_ideal};
@@ -122,20 +129,16 @@ PaperResult run_asharif2001(const PaperOptions& o) {
   const bool paper_room = o.world.empty();
   const StepCost cost;
   const Log log = sensed(room.world, room.world.scene.trajectory.seed), oriolo = with_oriolo_lasers(log);
-  Planned dempster = fused(oriolo, Rule::dempster, room, o.threads),
-          bayes = fused(oriolo, Rule::bayes, room, o.threads);
-  for (Planned* map : {&dempster, &bayes}) plan_ways(*map, room, cost);
+  const auto [dempster, bayes] = by_both(oriolo, room, cost, o.threads);
   const Compared c = compared(dempster, bayes);
   const Sweep swept = sweep(dempster, bayes, room, o.quick);
-  Planned beam_d = fused(log, Rule::dempster, room, o.threads), beam_b = fused(log, Rule::bayes, room, o.threads);
-  for (Planned* map : {&beam_d, &beam_b}) plan_ways(*map, room, cost);
+  const auto [beam_d, beam_b] = by_both(log, room, cost, o.threads);
   const Compared beams = compared(beam_d, beam_b);
 
   std::size_t seeds = 0, farther_least = 0, farther_mean = 0;  // other noise, the same way
   for (std::uint64_t k = 1; k <= (o.quick ? 1U : 10U); ++k) {
     const Log other = with_oriolo_lasers(sensed(room.world, room.world.scene.trajectory.seed + k));
-    Planned d = fused(other, Rule::dempster, room, o.threads), b = fused(other, Rule::bayes, room, o.threads);
-    for (Planned* map : {&d, &b}) plan_ways(*map, room, cost);
+    const auto [d, b] = by_both(other, room, cost, o.threads);
     const Compared of_seed = compared(d, b);
     if (of_seed.routes == 0) continue;
     ++seeds;
@@ -143,7 +146,7 @@ PaperResult run_asharif2001(const PaperOptions& o) {
     farther_mean += of_seed.mean_m[0] > of_seed.mean_m[1];
   }
 
-  const Slanting slanting = among_slanting_surfaces(o, cost);
+  const Slanting slanting = among_slanting_surfaces(o, room, cost);
 
   PaperResult out{Page("Dempster against Bayes for path planning",
                        "M. R. Asharif, R. Hosein Nezhad, B. Moshiri: Environment mapping for mobile robots navigation "

@@ -37,6 +37,7 @@ void cover_all(raycast::World& world, double critical_incidence_deg) {
   for (raycast::Wall& w : world.walls) w.material = material;
   for (raycast::Polygon& p : world.polygons) p.material = material;
   for (raycast::Box& b : world.boxes) b.material = material;
+  for (raycast::Circle& c : world.circles) c.material = material;
 }
 
 }  // namespace evigrid::driver

@@ -33,13 +33,16 @@ void add_specular(PaperResult& out, const PaperOptions& o, const scenes::Scene& 
                           ours, Aim::fact, false,
                           "the same drive, walls and things of one critical incidence; share of the outline", values});
   out.page.heading("What the surfaces decide");
-  out.page.paragraph(
+  const auto beyond = [](const raycast::Material& m) { return m.critical_incidence_rad / kDegree; };
+  out.page.paragraph(fmt::format(
       "The paper's field is a real one; what its surfaces were, it does not say. Ours are those of the embedded "
-      "furnished room, by what each thing is: plaster around (sound is thrown away beyond 35 degrees to the normal), "
-      "A and B of wood (45), the person in cloth (75). A sonar whose sound is thrown away hears what lies behind, and "
-      "the thing's place is called empty, dogmatically (the model leaves nothing unknown before the reading), so that "
-      "one such reading outweighs several that hear the thing. DSmT is brought back by the next of those, Dempster's "
-      "rule is not. Here everything that stands is of one critical incidence; 90: it echoes at every slant.");
+      "furnished room, by what each thing is: plaster around (sound is thrown away beyond {:g} degrees to the normal), "
+      "A and B of wood ({:g}), the person in cloth ({:g}). A sonar whose sound is thrown away hears what lies behind, "
+      "and the thing's place is called empty, dogmatically (the model leaves nothing unknown before the reading), so "
+      "that one such reading outweighs several that hear the thing. DSmT is brought back by the next of those, "
+      "Dempster's rule is not. Here everything that stands is of one critical incidence; 90: it echoes at every slant.",
+      beyond(room.world.polygons.at(0).material), beyond(room.world.boxes.at(0).material),
+      beyond(room.movers.at(0).shape.circles.at(0).material)));
   out.page.table({"critical incidence, degrees", "A: DSmT / Dempster", "B: DSmT / Dempster", "person: DSmT / Dempster"},
                  rows);
 }
