@@ -7,7 +7,6 @@
 #include <bit>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <numeric>
@@ -19,6 +18,7 @@
 #include "kernels/cell/poly.hpp"
 #include "kernels/row/compile_reading.hpp"
 #include "kernels/row/kernel_table.hpp"
+#include "tests/exhaustive.hpp"
 #include "tests/oracle/reference_lattice.hpp"
 #include "tests/oracle/reference_model.hpp"
 
@@ -154,7 +154,7 @@ TEST_P(ModelError, StaysBelowTwoMillionthsOverTheWholeDomain) {
   Dice dice(41);
   double worst = 0;
   std::uint64_t seen = 0;
-  const int cases = std::getenv("EVIGRID_EXHAUSTIVE") != nullptr ? 100'000 : 1500;
+  const int cases = evigrid::tests::exhaustive() ? 100'000 : 1500;
   for (int n = 0; n < cases; ++n) {
     const Case c = draw(GetParam(), dice);
     ASSERT_TRUE(check(c.sensor).empty()) << check(c.sensor).front().field;
@@ -181,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(Models, ModelError,
 
 // 2^y = 2^n·2^f with y − n exact, so that every float f in [−½, ½] covers every y; below 2^-26 the polynomial is 1.
 TEST(Polynomials, PowerOfTwoOverEveryFloat) {
-  const bool all = std::getenv("EVIGRID_EXHAUSTIVE") != nullptr;
+  const bool all = evigrid::tests::exhaustive();
   double worst = 0;
   std::uint64_t count = 0;
   for (std::uint32_t bits = std::bit_cast<std::uint32_t>(0x1p-26f); bits <= std::bit_cast<std::uint32_t>(0.5f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The polynomials over the floats of their domain: every float with EVIGRID_EVERY_FLOAT=1, else one in 61 (the angle
+// The polynomials over the floats of their domain: every float with EVIGRID_EXHAUSTIVE=1, else one in 61 (the angle
 // alone takes minutes then). 2^y is in tests/oracle/model_error_test.cpp, beside the masses it makes.
 #define EVIGRID_LAMBDA
 #include "kernels/cell/lane_scalar.hpp"
@@ -9,12 +9,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
+
+#include "tests/exhaustive.hpp"
 
 namespace evigrid::kernels {
 namespace {
 
-std::uint32_t stride() { return std::getenv("EVIGRID_EVERY_FLOAT") != nullptr ? 1 : 61; }
+std::uint32_t stride() { return tests::exhaustive() ? 1 : 61; }
 
 /// f(x) for the floats in (0, most].
 template <class F>
