@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gate, footprints, binning; then every region of tiles fuses its readings in their order, regions in parallel (owner
-// computes). The order of combination is part of the result, so there are no atomics and no reductions on cells, and
-// the map is the same bits for any executor and any number of threads.
+// Gate; footprints and binning (scan/bin.hpp); then every region of tiles fuses its readings in their order, regions in
+// parallel (owner computes). The order of combination is part of the result, so there are no atomics and no reductions
+// on cells, and the map is the same bits for any executor and any number of threads.
 #include "integrate.hpp"
 
 #include <algorithm>
@@ -31,28 +31,6 @@ kernels::RuleArgs args_of(const MapParams& p, bool undo) {
   return a;
 }
 
-/// Compiling is independent of order. A single scan's few readings are not worth waking other threads.
-void compile_all(std::vector<Footprint>& footprints, const Pipeline& p) {
-  constexpr std::size_t kChunk = 16, kAlone = 4 * kChunk;
-  const std::size_t n = footprints.size();
-  if (n <= kAlone) {
-    for (Footprint& f : footprints) compile(f, p.table);
-    return;
-  }
-  struct All {
-    std::vector<Footprint>& footprints;
-    const kernels::KernelTable& table;
-  } all_of{footprints, p.table};
-  p.executor.run(
-      static_cast<std::int64_t>((n + kChunk - 1) / kChunk),
-      [](void* context, std::int64_t chunk, int) {
-        const auto& [all, table] = *static_cast<All*>(context);
-        const std::size_t first = static_cast<std::size_t>(chunk) * kChunk;
-        for (std::size_t i = first; i < std::min(first + kChunk, all.size()); ++i) compile(all[i], table);
-      },
-      &all_of);
-}
-
 bool any_dependent(const Pipeline& p) {
   return std::any_of(p.sensors.begin(), p.sensors.end(),
                      [](const CompiledSensor& c) { return c.sensor.dependence != Dependence::independent; });
@@ -69,9 +47,10 @@ std::string_view not_by_device(const Pipeline& p) {
 }
 
 /// Every region by its task, regions in parallel.
-void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule, int threads) {
+void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) {
   s.stats.assign(s.plan.regions(), {});
-  if (s.workers.size() < static_cast<std::size_t>(threads)) s.workers.resize(static_cast<std::size_t>(threads));
+  const auto threads = static_cast<std::size_t>(p.executor.concurrency());
+  if (s.workers.size() < threads) s.workers.resize(threads);
   Batch batch{p, s, rule, any_dependent(p)};
   p.executor.run(
       static_cast<std::int64_t>(s.plan.regions()),
@@ -112,7 +91,7 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   s.footprints.clear();
   std::size_t number = 0;
   s.scan_end.clear();
-  for (const Scan& scan : scans) {  // gate: compile what can be used, count the rest
+  for (const Scan& scan : scans) {  // gate: keep what can be used, count the rest
     if (!p.undo) {
       std::int64_t& now_ns = p.store.now_ns;
       const bool backwards = scan.stamp_ns < now_ns;
@@ -125,10 +104,8 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
     ++number;
     s.scan_end.push_back(s.footprints.size());
   }
-  compile_all(s.footprints, p);
-  const int threads = p.executor.concurrency();
   try {
-    bin(s.footprints, p.table, p.store, p.admission, threads, s.plan);
+    bin(s.footprints, p.table, p.store, p.admission, p.executor, s.plan);
     copy_what_views_see(s.plan, p.store, p.executor);
   } catch (...) {  // no room: the scans did not come
     p.store.now_ns = before_ns;
@@ -137,7 +114,7 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   const Shield shield(s.plan, p.admission, p.store);
   const kernels::RuleArgs rule = args_of(p.params, p.undo);
   s.stats.clear();
-  if (!fused_by_device(p, s, rule)) fuse_regions(p, s, rule, threads);
+  if (!fused_by_device(p, s, rule)) fuse_regions(p, s, rule);
   shield.restore();
   for (const kernels::Stats& region : s.stats) {
     report.cells_updated += region.cells;

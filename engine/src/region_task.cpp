@@ -48,9 +48,10 @@ class RegionTask {
     Plan& plan = b_.s.plan;
     const ConeList::Marks from = s_.list.marks();
     const ConeFootprint& cone = plan.cone[reaches[0].footprint];
+    const kernels::ConeCuts* const bands = plan.bands(reaches[0].footprint);
     for (const Reach& r : reaches) {
       TileWork& w = plan.tiles[r.tile];
-      w.reached |= s_.list.add(b_.p.table, cone, plan.cones.bands(cone), *w.tile, b_.p.store.planes());
+      w.reached |= s_.list.add(b_.p.table, cone, bands, *w.tile, b_.p.store.planes());
     }
     s_.pending.push_back({&f, from, s_.list.marks()});
     if (s_.list.size() > kEnough) fuse_cones();

@@ -5,42 +5,67 @@
 #include <map>
 #include <numeric>
 
-#include "scan/footprint.hpp"
-
 namespace evigrid {
 namespace {
+
+/// A single scan's few readings are not worth waking other threads; more are cut into chunks, some for each thread.
+void list_reaches(std::vector<Footprint>& footprints, const kernels::KernelTable& table, TileStore& store,
+                  Executor& executor, Plan& plan) {
+  constexpr std::size_t kAlone = 64, kLeast = 16, kPerThread = 8;
+  const std::size_t n = footprints.size();
+  const auto threads = static_cast<std::size_t>(executor.concurrency());
+  plan.per_list =
+      n <= kAlone || threads == 1 ? std::max<std::size_t>(n, 1) : std::max(kLeast, n / (kPerThread * threads));
+  plan.lists.resize((n + plan.per_list - 1) / plan.per_list);
+  plan.cone.resize(n);
+  struct All {
+    std::vector<Footprint>& footprints;
+    const kernels::KernelTable& table;
+    TileStore& store;
+    Plan& plan;
+    void list(std::size_t number) const {
+      const std::size_t first = number * plan.per_list;
+      plan.lists[number].list(footprints, first, std::min(first + plan.per_list, footprints.size()), table, store,
+                              plan.cone);
+    }
+  } all{footprints, table, store, plan};
+  if (plan.lists.size() == 1) return all.list(0);
+  executor.run(
+      static_cast<std::int64_t>(plan.lists.size()),
+      [](void* context, std::int64_t number, int) {
+        static_cast<const All*>(context)->list(static_cast<std::size_t>(number));
+      },
+      &all);
+}
 
 /// Places of tiles in the batch: of those that exist in the tile itself, of the others in a map.
 class Places {
  public:
   Places(TileStore& store, const Admission& admission, Plan& plan)
       : store_(store), admission_(admission), restricted_(admission.restricts()), plan_(plan) {}
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0}, kRefused = kNone - 1;
-  [[nodiscard]] static bool is_place(std::uint32_t place) noexcept { return place < kRefused; }
+  static constexpr std::uint32_t kRefused = ~std::uint32_t{0};
 
-  /// kNone for a tile that neither exists nor has a place.
-  std::uint32_t find(TileIndex at) {
-    if (Tile* tile = store_.find(at)) {
+  std::uint32_t of(const Reached& r) {
+    if (Tile* const tile = r.tile) {
       if (tile->batch != plan_.batch) {
         tile->batch = plan_.batch;
-        tile->place = restricted_ && admission_.refuses(at) ? kRefused : add(at, tile);
+        tile->place = add(r.at, tile);
       }
       return tile->place;
     }
-    if (const auto it = missing_.find(at); it != missing_.end()) return it->second;
-    return restricted_ && admission_.refuses(at) ? kRefused : kNone;
-  }
-  std::uint32_t find_or_add(TileIndex at) {
-    const std::uint32_t place = find(at);
-    return place != kNone ? place : missing_[at] = add(at, nullptr);
+    const auto [it, is_new] = missing_.try_emplace(r.at, kRefused);
+    if (is_new) it->second = add(r.at, nullptr);
+    return it->second;
   }
   void make_missing() {
+    std::erase_if(missing_, [](const auto& m) { return m.second == kRefused; });
     store_.reserve(missing_.size());
     for (const auto& [at, place] : missing_) plan_.tiles[place].tile = &store_.get_or_make(at);
   }
 
  private:
   std::uint32_t add(TileIndex at, Tile* tile) {
+    if (restricted_ && admission_.refuses(at)) return kRefused;
     TileWork w;
     w.at = at;
     w.tile = tile;
@@ -97,48 +122,25 @@ void share_out(Plan& p, int threads, bool fans) {
 
 }  // namespace
 
-void bin(const std::vector<Footprint>& footprints, const kernels::KernelTable& table, TileStore& store,
-         const Admission& admission, int threads, Plan& plan) {
+void bin(std::vector<Footprint>& footprints, const kernels::KernelTable& table, TileStore& store,
+         const Admission& admission, Executor& executor, Plan& plan) {
   plan.batch = store.begin_operation();
   plan.tiles.clear();
   plan.unsorted.clear();
-  plan.cones.clear();
-  plan.cone.resize(footprints.size());
+  list_reaches(footprints, table, store, executor, plan);
   Places places(store, admission, plan);
-  kernels::FanMicros fan_micros;
-  bool fans = false;
-  for (std::uint32_t i = 0; i < footprints.size(); ++i) {
-    const Footprint& f = footprints[i];
-    const auto reach = [&](std::uint32_t place) {
-      if (!Places::is_place(place)) return;
+  for (const ReachList& list : plan.lists) {
+    for (const Reached& r : list.reached()) {
+      const std::uint32_t place = places.of(r);
+      if (place == Places::kRefused) continue;
       ++plan.tiles[place].readings;
-      plan.unsorted.push_back({i, place});
-    };
-    if (!f.fan) {
-      plan.cone[i] = plan.cones.find(table, f.cone);
-      plan.cones.each_tile(plan.cone[i], [&](TileIndex at) { reach(places.find_or_add(at)); });
-      continue;
-    }
-    fans = true;
-    const CellBox box = fan_box(*f.fan);
-    const TileIndex first = tile_of(box.x0, box.y0), last = tile_of(box.x1, box.y1);
-    for (std::int64_t y = first.y; y <= last.y; ++y) {
-      for (std::int64_t x = first.x; x <= last.x; ++x) {
-        const TileIndex at{y, x};
-        if (const std::uint32_t place = places.find(at); place != Places::kNone) {
-          reach(place);
-          continue;
-        }
-        // A new tile costs memory: look closer before making one.
-        const auto& q = f.fan->reading;
-        table.select_fan(q, static_cast<float>(offset(x, q.i0, q.fx)), static_cast<float>(offset(y, q.j0, q.fy)),
-                         fan_micros);
-        if (fan_micros.empty_count + fan_micros.edge_count > 0) reach(places.find_or_add(at));
-      }
+      plan.unsorted.push_back({r.footprint, place});
     }
   }
   places.make_missing();
-  share_out(plan, threads, fans);
+  const bool fans =
+      std::any_of(footprints.begin(), footprints.end(), [](const Footprint& f) { return f.fan != nullptr; });
+  share_out(plan, executor.concurrency(), fans);
 }
 
 }  // namespace evigrid

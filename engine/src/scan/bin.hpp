@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binning: which readings reach which tiles, and which tiles one task fuses. A region is some tiles that lie together;
-// within it readings come in their order, so every cell meets them in order, whoever runs the region.
+// Binning: which readings reach which tiles, listed in parallel, and which tiles one task fuses. A region is some tiles
+// that lie together; within it readings come in their order, so every cell meets them in order, whoever runs the
+// region.
 #pragma once
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "evigrid/executor.hpp"
 #include "grid/admission.hpp"
-#include "grid/tile_store.hpp"
-#include "scan/compiled.hpp"
-#include "scan/cone_list.hpp"
+#include "scan/reach_list.hpp"
 
 namespace evigrid {
 
@@ -35,8 +35,12 @@ struct Plan {
     return std::span(reaches).subspan(region_begin[i], region_begin[i + 1] - region_begin[i]);
   }
 
-  ConeFootprints cones;
-  std::vector<ConeFootprint> cone;  // by footprint; of fans: empty
+  std::vector<ReachList> lists;  // each of per_list footprints
+  std::size_t per_list = 1;
+  std::vector<ConeFootprint> cone;  // by footprint; of fans: anything
+  [[nodiscard]] const kernels::ConeCuts* bands(std::uint32_t footprint) const noexcept {
+    return lists[footprint / per_list].bands(cone[footprint]);
+  }
 
   // Kept for their memory.
   std::vector<std::uint32_t> order;
@@ -44,8 +48,8 @@ struct Plan {
   std::uint64_t batch = 0;
 };
 
-/// Creates missing tiles (std::length_error at the memory cap, before any cell is changed).
-/// Tiles that admission refuses are not reached.
-void bin(const std::vector<Footprint>&, const kernels::KernelTable&, TileStore&, const Admission&, int threads, Plan&);
+/// Compiles the footprints, and creates missing tiles (std::length_error at the memory cap, before any cell is
+/// changed). Tiles that admission refuses are not reached.
+void bin(std::vector<Footprint>&, const kernels::KernelTable&, TileStore&, const Admission&, Executor&, Plan&);
 
 }  // namespace evigrid

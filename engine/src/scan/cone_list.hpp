@@ -23,7 +23,7 @@ struct ConeFootprint {
   int micros = 0;  // that it may touch
 };
 
-/// The footprints of a batch of cones.
+/// The bands of some cones.
 class ConeFootprints {
  public:
   void clear() noexcept { bands_.clear(); }
