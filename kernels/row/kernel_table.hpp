@@ -139,6 +139,13 @@ struct Measured {
   std::uint16_t inside[256];
 };
 
+/// How masses become a cost (engine/src/grid/costs.cpp): BetP between `free_below` and `lethal_above` is 1 + the nearest
+/// whole number to slope · (BetP − free_below).
+struct CostArgs {
+  float free_below = 0, lethal_above = 0, max_unknown = 0, slope = 0;
+  float none = 0, lethal = 0;  // costs, whole numbers: no information; occupied
+};
+
 struct DensePlanes {
   const float *ae, *ao, *au, *be, *bo, *bu;
   float *ce, *co, *cu, *k;  // k may be null
@@ -175,6 +182,10 @@ struct KernelTable {
   /// Masses of `micros` micro-tiles, one after the other from `cells` on: 16 e, 16 o, 16 u, 16 c each, to `out`; both
   /// 64-byte aligned.
   void (*read_out[kRules])(const float* cells, int planes, int micros, float* out);
+  /// Costs of micro-tiles beside each other, whose first planes are e, o and u, without c: four rows of 4 · micros
+  /// bytes, `stride` apart.
+  void (*render_costs)(const CostArgs&, const float* cells, int planes, int micros, std::uint8_t* out,
+                       std::ptrdiff_t stride);
   std::uint64_t (*dense[kBatchRules])(const DensePlanes&, std::size_t begin, std::size_t end);
   std::uint64_t (*dense16[kBatchRules])(const Dense16Planes&, std::size_t begin, std::size_t end);
 };

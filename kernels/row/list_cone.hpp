@@ -2,24 +2,12 @@
 // Lists the micro-tiles of one tile that a cone may touch, zone by zone. No branch depends on where a run of them ends:
 // they are numbered in bytes, sixteen of which are written for every run however short it is, and what follows
 // overwrites the rest. So it is with the lists: sixteen entries are written at once, without a rest to be counted.
-// In whole numbers, which Lanes do not have: the compiler's own vectors, of whatever width the target has.
 #pragma once
 #include <cstring>
 
-#include "kernels/row/kernel_table.hpp"
+#include "kernels/row/whole_numbers.hpp"
 
 EVIGRID_CELL_BEGIN
-
-template <class Number, int kCount>
-struct Numbers {
-  using type __attribute__((vector_size(sizeof(Number) * kCount))) = Number;
-};
-using Int8 = Numbers<std::int32_t, 8>::type;
-using Int16 = Numbers<std::int32_t, kListAtOnce>::type;
-using Byte16 = Numbers<std::uint8_t, kListAtOnce>::type;
-using Short16 = Numbers<std::int16_t, kListAtOnce>::type;
-using Float16 = Numbers<float, kListAtOnce>::type;
-using Address16 = Numbers<std::uintptr_t, kListAtOnce>::type;
 
 /// Columns from … end − 1 of the row of micro-tiles whose numbers in the tile are these.
 EVIGRID_FN void put_run(std::uint8_t*& to, const Byte16& numbers, int from, int end) {

@@ -8,6 +8,7 @@
 #include "kernels/cell/rule_yager.hpp"
 #include "kernels/row/compile_fan.hpp"
 #include "kernels/row/list_cone.hpp"
+#include "kernels/row/render_costs.hpp"
 #include "kernels/row/rule_table.hpp"
 #include "kernels/row/select_fan.hpp"
 
@@ -20,6 +21,7 @@ inline KernelTable make_table(std::string_view name, int lanes) {
   t.compile_fan = compile_fan;
   t.select_fan = select_fan;
   t.list_cone = list_cone;
+  t.render_costs = render_costs;
   fill_rule<Dempster>(t, kDempster);
   fill_rule<Yager>(t, kYager);
   fill_paradox_rule<Dsmh>(t, kDsmh, kYager);

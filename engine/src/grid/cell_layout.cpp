@@ -81,6 +81,7 @@ CellLayout cell_layout(const MapParams& p, const KernelTable& table) {
   if (p.keep_con) out.con = next++;
   if (p.keep_last_conflict) out.last_conflict = next++;
   if (p.decay_s > 0) out.age = next;
+  if (out.planes_are_masses && out.paradox < 0) out.render_costs = table.render_costs;
   out.read_out = table.read_out[kernel_of(p.rule)];
   return out;
 }

@@ -25,6 +25,7 @@ struct CellLayout {
   int paradox = -1, conflict = -1, con = -1, last_conflict = -1;  // which plane; −1 is none
   int age = -1;                   // of maps that forget: the first of three planes (decay.hpp)
   bool planes_are_masses = true;  // the first three are e, o, u as they are read
+  decltype(kernels::KernelTable::render_costs) render_costs = nullptr;  // where planes are masses, without c
   void (*read_out)(const float* cells, int planes, int micros, float* out) = nullptr;
 };
 CellLayout cell_layout(const MapParams&, const kernels::KernelTable&);
