@@ -42,7 +42,8 @@ std::string_view not_by_device(const Pipeline& p) {
   const auto revised = [](const CompiledSensor& c) { return c.sensor.revision != nullptr; };
   if (std::any_of(p.sensors.begin(), p.sensors.end(), revised))
     return "readings with a learned revision are fused on the processor";
-  if (!p.admission.guarded.empty()) return "a map with protected areas is fused on the processor";
+  if (p.store.layout().age >= 0 && p.store.layout().paradox >= 0)
+    return "a map that forgets and keeps mass on empty ∩ occupied is fused on the processor";
   return {};
 }
 

@@ -119,7 +119,7 @@ class Cuda final : public Device {
       l.parts = args_.parts + run.first_part;
       l.part_count = run.parts;
       if (run.parts == 0) continue;
-      (run.model < 0 ? table_.fans[b.rule] : table_.cones[b.rule][run.model])(l);
+      table_.of(b.rule, run.model, b.age >= 0)(l);
       cuda_check(cudaGetLastError(), "launch");
     }
     fused_.record(work_);
@@ -202,6 +202,7 @@ class Cuda final : public Device {
     for (const Fan* f : b.fans) fan_floats += 3 * static_cast<std::size_t>(f->reading.beams) + 2;
     const std::size_t bytes = b.tiles.size_bytes() + b.parts.size_bytes() + b.reaches.size_bytes() +
                               b.cones.size() * sizeof(ConeReading) + b.fans.size() * sizeof(FanReading) +
+                              b.cone_ages.size_bytes() + b.fan_ages.size_bytes() +
                               fan_floats * sizeof(float) + new_tiles * (floats + 2) * sizeof(float);
     parcel_.begin(bytes + 256 * (16 + 3 * b.fans.size()));
     sent_.record(work_);
@@ -222,6 +223,8 @@ class Cuda final : public Device {
       fans[i].reach = nullptr;
     }
     args_.fans = parcel_.on_device(fans);
+    args_.cone_ages = parcel_.add(b.cone_ages.data(), b.cone_ages.size());
+    args_.fan_ages = parcel_.add(b.fan_ages.data(), b.fan_ages.size());
     auto** const places = parcel_.on_host<float*>(new_tiles);
     auto* const cells = parcel_.on_host<float>(new_tiles * floats);
     std::size_t n = 0;
@@ -237,7 +240,7 @@ class Cuda final : public Device {
           static_cast<unsigned>(floats / 4));
       cuda_check(cudaGetLastError(), "launch");
     }
-    args_.args = {b.planes, b.conflict_plane, b.args};
+    args_.args = {b.planes, b.age, b.conflict_plane, b.args};
     args_.counts = counts_.room<DeviceCounts>(1);
     args_.reached = masks_.room<unsigned long long>(b.tiles.size());
     args_.stream = work_;

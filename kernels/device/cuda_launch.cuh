@@ -21,6 +21,7 @@ struct LaunchArgs {
   const std::uint32_t* reaches;
   const ConeReading* cones;
   const FanReading* fans;
+  const ReadingAge *cone_ages, *fan_ages;
   DeviceBatchArgs args;
   DeviceCounts* counts;
   unsigned long long* reached;
@@ -28,7 +29,7 @@ struct LaunchArgs {
 };
 
 /// Model void: fans.
-template <class State, class Model>
+template <class State, class Model, bool kForgets>
 __global__ void __launch_bounds__(kSquareCells) fuse_squares(const LaunchArgs l) {
   constexpr int kWarp = 32, kWarps = kSquareCells / kWarp;
   constexpr bool kFans = std::is_void_v<Model>;
@@ -41,7 +42,7 @@ __global__ void __launch_bounds__(kSquareCells) fuse_squares(const LaunchArgs l)
   const Square16 at(tile, square);
   const Place place(thread);
   float* const cell = tile.cells + place.offset(square, l.args.planes);
-  OwnCell<State> own;
+  OwnCell<State, kForgets> own;
   bool loaded = false;
   for (std::uint32_t begin = 0; begin < part.count; begin += kSquareCells) {
     const std::uint32_t mine = begin + static_cast<std::uint32_t>(thread);
@@ -70,10 +71,11 @@ __global__ void __launch_bounds__(kSquareCells) fuse_squares(const LaunchArgs l)
       loaded = true;
     }
     for (unsigned i = 0; i < all; ++i) {
+      own.age.hears(kFans ? l.fan_ages : l.cone_ages, chosen[i]);
       if constexpr (kFans) {
         fuse_one(own, l.fans[chosen[i]], at, place, l.args);
       } else {
-        fuse_one<State, Model>(own, l.cones[chosen[i]], at, place, l.args);
+        fuse_one<Model>(own, l.cones[chosen[i]], at, place, l.args);
       }
     }
     __syncthreads();  // before `chosen` is written again
@@ -91,13 +93,13 @@ __global__ void __launch_bounds__(kSquareCells) fuse_squares(const LaunchArgs l)
   }
 }
 
-template <class State, class Model>
+template <class State, class Model, bool kForgets>
 void launch_cones(const LaunchArgs& l) {
-  fuse_squares<State, Model><<<l.part_count * kSquaresPerTile, kSquareCells, 0, l.stream>>>(l);
+  fuse_squares<State, Model, kForgets><<<l.part_count * kSquaresPerTile, kSquareCells, 0, l.stream>>>(l);
 }
-template <class State>
+template <class State, bool kForgets>
 void launch_fans(const LaunchArgs& l) {
-  fuse_squares<State, void><<<l.part_count * kSquaresPerTile, kSquareCells, 0, l.stream>>>(l);
+  fuse_squares<State, void, kForgets><<<l.part_count * kSquaresPerTile, kSquareCells, 0, l.stream>>>(l);
 }
 
 EVIGRID_CELL_END

@@ -36,14 +36,22 @@ struct DevicePart {
   std::uint32_t tile = 0, first = 0, count = 0;  // reaches[first …]
 };
 
+/// Of maps that forget: when a reading was made, and how fast it is forgotten.
+struct ReadingAge {
+  std::int64_t stamp_ns = 0;
+  float tau_s = 0;
+};
+
 struct DeviceBatch {
   int rule = 0;  // a RuleKernel
   int planes = 3;
+  int age = -1;  // the first of three planes of age, of maps that forget
   bool conflict_plane = false;
   RuleArgs args{};
   std::span<const DeviceTile> tiles;
-  std::span<const ConeReading* const> cones;  // reaches of a run of cones count in these,
-  std::span<const Fan* const> fans;           // those of fans in these
+  std::span<const ConeReading* const> cones;        // reaches of a run of cones count in these,
+  std::span<const Fan* const> fans;                 // those of fans in these
+  std::span<const ReadingAge> cone_ages, fan_ages;  // of maps that forget: one each
   std::span<const DeviceRun> runs;
   std::span<const DevicePart> parts;
   std::span<const std::uint32_t> reaches;

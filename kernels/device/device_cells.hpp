@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels/device/lane_device.hpp"
 // After the lanes.
+#include "kernels/cell/fade.hpp"
 #include "kernels/cell/mass.hpp"
 #include "kernels/cell/one_sided.hpp"
 #include "kernels/cell/poly.hpp"
@@ -19,6 +20,7 @@ EVIGRID_CELL_BEGIN
 /// What all readings of a batch share.
 struct DeviceBatchArgs {
   int planes = 3;
+  int age = -1;
   bool conflict_plane = false;
   RuleArgs rule{};
 };
@@ -81,9 +83,70 @@ inline constexpr bool kConflictIsExtra<MeanCells> = true;
 template <>
 inline constexpr bool kConflictIsExtra<LogOdds> = true;
 
-/// One cell between its load and its store.
+/// States whose cells age each by itself. Not OpenCells: their masses below 1e-12 are taken for 0 when a neighbour in
+/// the micro-tile ages (engine/src/grid/decay.cpp), of which a thread knows nothing.
 template <class State>
+inline constexpr bool kCanForget = RuleOfMasses<State>::kThere;
+
+/// The age of a cell in maps that forget: aged before a reading is fused, put back where it had nothing to say.
+template <class State, bool kForgets>
+struct OwnAge {
+  EVIGRID_FN void load(const float*, const DeviceBatchArgs&) {}
+  EVIGRID_FN void store(float*, const DeviceBatchArgs&) const {}
+  EVIGRID_FN void hears(const ReadingAge*, std::uint32_t) {}
+  EVIGRID_FN void fade(float (&)[State::kPlanes]) {}
+  EVIGRID_FN void settle(float (&)[State::kPlanes]) {}
+};
+template <class State>
+struct OwnAge<State, true> {
+  std::int64_t stamp_ns;
+  float tau_s;
+  ReadingAge heard;
+  float before[State::kPlanes], aged[State::kPlanes];
+
+  EVIGRID_FN void load(const float* p, const DeviceBatchArgs& a) {
+    p += a.age * kMicroCells;
+    const auto low = std::bit_cast<std::uint32_t>(p[0]), high = std::bit_cast<std::uint32_t>(p[kMicroCells]);
+    stamp_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(high) << 32 | low);
+    tau_s = p[2 * kMicroCells];
+  }
+  EVIGRID_FN void store(float* p, const DeviceBatchArgs& a) const {
+    p += a.age * kMicroCells;
+    const auto bits = static_cast<std::uint64_t>(stamp_ns);
+    p[0] = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    p[kMicroCells] = std::bit_cast<float>(static_cast<std::uint32_t>(bits >> 32));
+    p[2 * kMicroCells] = tau_s;
+  }
+  EVIGRID_FN void hears(const ReadingAge* ages, std::uint32_t reading) { heard = ages[reading]; }
+  EVIGRID_FN void fade(float (&plane)[State::kPlanes]) {
+    for (int i = 0; i < State::kPlanes; ++i) before[i] = plane[i];
+    if (const float share = share_left(stamp_ns, tau_s, heard.stamp_ns); share != 1.0f) {
+      float given_up = 0, left = 0;
+      for (int i = 0; i < State::kPlanes; ++i) {
+        if (i != 2) keep_share(share, plane[i], given_up, left);
+      }
+      plane[2] = left == 0.0f ? 1.0f : plane[2] + given_up;
+    }
+    for (int i = 0; i < State::kPlanes; ++i) aged[i] = plane[i];
+  }
+  EVIGRID_FN void settle(float (&plane)[State::kPlanes]) {
+    bool told = false;  // whether a bit changed
+    for (int i = 0; i < State::kPlanes; ++i)
+      told = told || std::bit_cast<std::uint32_t>(plane[i]) != std::bit_cast<std::uint32_t>(aged[i]);
+    if (!told) {
+      for (int i = 0; i < State::kPlanes; ++i) plane[i] = before[i];
+      return;
+    }
+    stamp_ns = tau_s == 0.0f || heard.stamp_ns > stamp_ns ? heard.stamp_ns : stamp_ns;
+    tau_s = heard.tau_s;
+  }
+};
+
+/// One cell between its load and its store.
+template <class StateOfCell, bool kForgets>
 struct OwnCell {
+  using State = StateOfCell;
+  OwnAge<State, kForgets> age;
   float plane[State::kPlanes];
   float conflict = 0, con = 0, last = 0;
   float max_k = 0;
@@ -91,6 +154,7 @@ struct OwnCell {
 
   EVIGRID_FN void load(const float* p, const DeviceBatchArgs& a) {
     for (int i = 0; i < State::kPlanes; ++i) plane[i] = p[i * kMicroCells];
+    age.load(p, a);
     if (!a.conflict_plane) return;
     p += State::kPlanes * kMicroCells;
     conflict = *p;
@@ -99,6 +163,7 @@ struct OwnCell {
   }
   EVIGRID_FN void store(float* p, const DeviceBatchArgs& a) const {
     for (int i = 0; i < State::kPlanes; ++i) p[i * kMicroCells] = plane[i];
+    age.store(p, a);
     if (!a.conflict_plane) return;
     p += State::kPlanes * kMicroCells;
     *p = conflict;
@@ -115,17 +180,19 @@ struct OwnCell {
   }
   template <class S>
   EVIGRID_FN void fuse(const S& source, const DeviceBatchArgs& a) {
+    age.fade(plane);
     const auto next = State::template update<true>(plane, source, a.rule);
     float k = next.k;
     if constexpr (kConflictIsExtra<State>) k = a.conflict_plane ? k : 0.0f;
     for (int i = 0; i < State::kPlanes; ++i) plane[i] = next.plane[i];
+    age.settle(plane);
     if constexpr (State::kTotalPossible) totals += next.total ? 1u : 0u;
     count(k, a);
   }
 };
 
-template <class State, class Model>
-EVIGRID_FN void fuse_one(OwnCell<State>& own, const ConeReading& q, const Square16& at, const Place& place,
+template <class Model, class State, bool kForgets>
+EVIGRID_FN void fuse_one(OwnCell<State, kForgets>& own, const ConeReading& q, const Square16& at, const Place& place,
                          const DeviceBatchArgs& a) {
   constexpr bool kExcess = kAsksExcess<Model>;
   constexpr Paradox kParadox = paradox_of<State>();
@@ -143,8 +210,8 @@ EVIGRID_FN void fuse_one(OwnCell<State>& own, const ConeReading& q, const Square
   own.fuse(source_of<kConsumed, Model, kRim>(q, polar), a);
 }
 
-template <class State>
-EVIGRID_FN void fuse_one(OwnCell<State>& own, const FanReading& q, const Square16& at, const Place& place,
+template <class State, bool kForgets>
+EVIGRID_FN void fuse_one(OwnCell<State, kForgets>& own, const FanReading& q, const Square16& at, const Place& place,
                          const DeviceBatchArgs& a) {
   const float dx = offset_from(at.x + place.micro_x * kMicroSide, q.i0, q.fx) + Lanes::column(place.cell),
               dy = offset_from(at.y + place.micro_y * kMicroSide, q.j0, q.fy) + Lanes::row(place.cell);
@@ -160,12 +227,14 @@ EVIGRID_FN void fuse_one(OwnCell<State>& own, const FanReading& q, const Square1
     const auto source = measure_beam(q, c.occupied ? q.occupied : q.empty, d);
     // An occupied cell is the mirror image of an empty one.
     const int e = c.occupied ? 1 : 0;
+    own.age.fade(own.plane);
     const auto next = Rule::template combine<MapState>(
         Cell<float>{c.occupied ? own.plane[1] : own.plane[0], c.occupied ? own.plane[0] : own.plane[1], own.plane[2]},
         source);
     own.plane[0] = e == 1 ? next.cell.b : next.cell.a;
     own.plane[1] = e == 1 ? next.cell.a : next.cell.b;
     own.plane[2] = next.cell.u;
+    own.age.settle(own.plane);
     if constexpr (Rule::kTotalPossible) own.totals += next.total ? 1u : 0u;
     own.count(next.k, a);
   } else {

@@ -15,10 +15,10 @@ struct LaunchArgs {
   std::uint64_t* reached;
 };
 
-template <class State, class ReadingOf, class Fuse>
-void each_square(const LaunchArgs& l, const ReadingOf& reading_of, const Fuse& fuse) {
+template <class State, bool kForgets, class ReadingOf, class Fuse>
+void each_square(const LaunchArgs& l, const ReadingAge* ages, const ReadingOf& reading_of, const Fuse& fuse) {
   const DeviceBatch& b = l.batch;
-  const DeviceBatchArgs args{b.planes, b.conflict_plane, b.args};
+  const DeviceBatchArgs args{b.planes, b.age, b.conflict_plane, b.args};
   for (const DevicePart& part : b.parts.subspan(l.run.first_part, l.run.parts)) {
     const DeviceTile& tile = b.tiles[part.tile];
     for (int square = 0; square < kSquaresPerTile; ++square) {
@@ -26,10 +26,12 @@ void each_square(const LaunchArgs& l, const ReadingOf& reading_of, const Fuse& f
       for (int thread = 0; thread < kSquareCells; ++thread) {
         const Place place(thread);
         float* const cell = tile.cells + place.offset(square, b.planes);
-        OwnCell<State> own;
+        OwnCell<State, kForgets> own;
         own.load(cell, args);
         for (const std::uint32_t r : b.reaches.subspan(part.first, part.count)) {
-          if (may_touch(reading_of(r), at)) fuse(own, reading_of(r), at, place, args);
+          if (!may_touch(reading_of(r), at)) continue;
+          own.age.hears(ages, r);
+          fuse(own, reading_of(r), at, place, args);
         }
         if (own.updates == 0) continue;
         own.store(cell, args);
@@ -42,17 +44,17 @@ void each_square(const LaunchArgs& l, const ReadingOf& reading_of, const Fuse& f
   }
 }
 
-template <class State, class Model>
+template <class State, class Model, bool kForgets>
 void launch_cones(const LaunchArgs& l) {
-  each_square<State>(
-      l, [&](std::uint32_t r) -> const ConeReading& { return *l.batch.cones[r]; },
-      [](auto& own, const ConeReading& q, const auto&... rest) { fuse_one<State, Model>(own, q, rest...); });
+  each_square<State, kForgets>(
+      l, l.batch.cone_ages.data(), [&](std::uint32_t r) -> const ConeReading& { return *l.batch.cones[r]; },
+      [](auto& own, const ConeReading& q, const auto&... rest) { fuse_one<Model>(own, q, rest...); });
 }
-template <class State>
+template <class State, bool kForgets>
 void launch_fans(const LaunchArgs& l) {
-  each_square<State>(
-      l, [&](std::uint32_t r) -> const FanReading& { return l.batch.fans[r]->reading; },
-      [](auto& own, const FanReading& q, const auto&... rest) { fuse_one<State>(own, q, rest...); });
+  each_square<State, kForgets>(
+      l, l.batch.fan_ages.data(), [&](std::uint32_t r) -> const FanReading& { return l.batch.fans[r]->reading; },
+      [](auto& own, const FanReading& q, const auto&... rest) { fuse_one(own, q, rest...); });
 }
 
 EVIGRID_CELL_END
@@ -94,8 +96,7 @@ class Emulated final : public Device {
       if (t.host != nullptr) std::memcpy(t.cells, t.host, floats * sizeof(float));
     }
     for (const DeviceRun& run : b.runs) {
-      const auto launch = run.model < 0 ? table_.fans[b.rule] : table_.cones[b.rule][run.model];
-      launch({b, run, stats, reached_.data()});
+      table_.of(b.rule, run.model, b.age >= 0)({b, run, stats, reached_.data()});
     }
     cells_.clear();
     for (std::size_t i = 0; i < b.tiles.size(); ++i) {

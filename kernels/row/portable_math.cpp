@@ -3,6 +3,10 @@
 
 #include <cmath>
 
+#include "kernels/cell/lane_scalar.hpp"
+// After the lanes.
+#include "kernels/cell/fade.hpp"
+
 namespace evigrid::kernels {
 
 SinCos portable_sincos(double angle) noexcept {
@@ -40,13 +44,10 @@ double portable_asin(double x) noexcept {
   return sum;
 }
 
-double portable_exp(double x) noexcept {
-  const double n = std::nearbyint(x * 1.44269504088896340736);
-  double r = std::fma(-n, 6.93147180559945286227e-01, x);
-  r = std::fma(-n, 2.31904681384629955842e-17, r);
-  double sum = 0;
-  for (int k = 18; k >= 1; --k) sum = (1 + sum) * (r / k);
-  return std::ldexp(1 + sum, static_cast<int>(n));
+double portable_exp(double x) noexcept { return scalar::exponential_in_double(x); }
+
+float portable_share_left(std::int64_t stamp_ns, float tau_s, std::int64_t now_ns) noexcept {
+  return scalar::share_left(stamp_ns, tau_s, now_ns);
 }
 
 double portable_tanh(double x) noexcept {

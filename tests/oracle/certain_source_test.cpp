@@ -33,9 +33,10 @@ bool measured(const Sensor& s, const Pose2& pose, float range_m, CellIndex cell,
   spec.discount_by_lambda = s.li2006.discount_by_lambda;
   spec.reliability_if_empty = spec.reliability_if_occupied = 1;
   const k::ConeReading q = k::compile_cone(k::ConeType(spec), {pose.x_m, pose.y_m, pose.yaw_rad}, range_m);
-  const float x0 = static_cast<float>(cell.x - q.i0) - q.fx, y0 = static_cast<float>(cell.y - q.j0) - q.fy;
+  const float x0[1 + k::kConeAhead] = {static_cast<float>(cell.x - q.i0) - q.fx};
+  const float y0[1 + k::kConeAhead] = {static_cast<float>(cell.y - q.j0) - q.fy};
   k::ConeArgs args;
-  args.zone[k::kRim] = {nullptr, &x0, &y0, 1};
+  args.zone[k::kRim] = {nullptr, x0, y0, 1};
   auto m = std::make_unique<k::Measured>();
   k::find_table("auto")->measure_cone[k::kDsmh][spec.model](args, q, *m);  // a rule that takes all masses as they are
   if ((m->inside[0] & 1) == 0) return false;

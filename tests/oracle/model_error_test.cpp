@@ -102,7 +102,7 @@ double error_of(const Case& c, double along, double beside, double heading_rad, 
   const double d_middle = along * q.outer, turn = heading_rad + beside * s.aperture_rad;
   const float x0 = static_cast<float>(std::floor(d_middle * std::cos(turn)) - 32 - q.fx);
   const float y0 = static_cast<float>(std::floor(d_middle * std::sin(turn)) - 32 - q.fy);
-  std::array<float, 256> x, y;
+  std::array<float, 256 + k::kConeAhead> x{}, y{};
   for (std::size_t i = 0; i < 256; ++i) {
     x[i] = x0 + static_cast<float>(i % 16 * 4);
     y[i] = y0 + static_cast<float>(i / 16 * 4);

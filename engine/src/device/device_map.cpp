@@ -8,7 +8,8 @@
 
 namespace evigrid {
 
-void DeviceMap::list_runs(const Scratch& s) {
+void DeviceMap::list_runs(const MapParams& params, const Scratch& s) {
+  cone_ages_.clear(), fan_ages_.clear();
   run_of_.clear(), place_of_.clear(), cones_.clear(), fans_.clear(), runs_.clear();
   for (const Footprint& f : s.footprints) {
     const int model = f.fan ? -1 : f.cone_model;
@@ -21,6 +22,9 @@ void DeviceMap::list_runs(const Scratch& s) {
       place_of_.push_back(static_cast<std::uint32_t>(cones_.size()));
       cones_.push_back(&f.cone);
     }
+    if (params.decay_s <= 0) continue;
+    const double own_s = f.sensor->sensor.decay_s;
+    (f.fan ? fan_ages_ : cone_ages_).push_back({f.stamp_ns, static_cast<float>(own_s > 0 ? own_s : params.decay_s)});
   }
 }
 
@@ -124,7 +128,7 @@ void DeviceMap::take_back(const Pipeline& p, Plan& plan, const kernels::DeviceRe
 
 kernels::Stats DeviceMap::fuse(const Pipeline& p, Scratch& s, const kernels::RuleArgs& args) {
   if (s.footprints.empty() || s.plan.tiles.empty()) return {};
-  list_runs(s);
+  list_runs(p.params, s);
   list_parts(s.plan);
   list_tiles(p, s.plan);
   kernels::DeviceBatch batch;
@@ -135,6 +139,9 @@ kernels::Stats DeviceMap::fuse(const Pipeline& p, Scratch& s, const kernels::Rul
   batch.tiles = tiles_;
   batch.cones = cones_;
   batch.fans = fans_;
+  batch.age = p.store.layout().age;
+  batch.cone_ages = cone_ages_;
+  batch.fan_ages = fan_ages_;
   batch.runs = runs_;
   batch.parts = parts_;
   batch.reaches = reaches_;

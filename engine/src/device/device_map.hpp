@@ -28,7 +28,7 @@ class DeviceMap {
   kernels::Stats fuse(const Pipeline&, Scratch&, const kernels::RuleArgs&);
 
  private:
-  void list_runs(const Scratch&);
+  void list_runs(const MapParams&, const Scratch&);
   void list_parts(const Plan&);
   void list_tiles(const Pipeline&, const Plan&);
   void take_back(const Pipeline&, Plan&, const kernels::DeviceResult&);
@@ -42,6 +42,7 @@ class DeviceMap {
   std::vector<std::uint32_t> run_of_, place_of_;  // by footprint: its run, its place among the cones or the fans
   std::vector<const kernels::ConeReading*> cones_;
   std::vector<const kernels::Fan*> fans_;
+  std::vector<kernels::ReadingAge> cone_ages_, fan_ages_;
   std::vector<Entry> entries_, sorted_;
   std::vector<kernels::DeviceRun> runs_;
   std::vector<kernels::DevicePart> parts_;

@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kCells = kernels::kMicroCells;
 constexpr float kLeastMass = 1e-12f;  // what a map takes for 0 (docs/maths.md): so that no denormal arises
-constexpr double kMostExponent = 700;
 
 /// exp(−Δt/τ), or what there is to remember of it: neighbours mostly heard the same readings.
 class Shares {
@@ -21,10 +20,8 @@ class Shares {
     if (age.tau_s <= 0 || now_ns <= age.stamp_ns) return 1;
     const std::uint64_t elapsed = static_cast<std::uint64_t>(now_ns) - static_cast<std::uint64_t>(age.stamp_ns);
     Known& k = known_[(elapsed * 0x9E3779B97F4A7C15ull) >> 58];
-    if (k.elapsed != elapsed || k.tau_s != age.tau_s) {
-      const double x = static_cast<double>(elapsed) * 1e-9 / static_cast<double>(age.tau_s);
-      k = {elapsed, age.tau_s, x > kMostExponent ? 0.0f : static_cast<float>(kernels::portable_exp(-x))};
-    }
+    if (k.elapsed != elapsed || k.tau_s != age.tau_s)
+      k = {elapsed, age.tau_s, kernels::portable_share_left(age.stamp_ns, age.tau_s, now_ns)};
     return k.share;
   }
 

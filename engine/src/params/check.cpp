@@ -74,8 +74,6 @@ std::vector<ParamError> check(const MapParams& p) {
   if (!(p.bayes.least_p < p.bayes.most_p)) errors.push_back({"map.bayes.least_p", "must be below most_p"});
   if (p.keep_con && !p.keep_conflict) errors.push_back({"map.keep_con", "needs keep_conflict"});
   if (p.keep_last_conflict && !p.keep_conflict) errors.push_back({"map.keep_last_conflict", "needs keep_conflict"});
-  if (p.decay_s > 0 && p.kernel == Kernel::cuda)
-    errors.push_back({"map.decay_s", "cannot be with kernel cuda: devices do not forget yet"});
   if (p.decay_s > 0 && !state_is_masses(p.rule)) {
     errors.push_back({"map.decay_s", "cannot be with the rule " + std::string(name(p.rule)) +
                                          ": its cells hold no masses that time could discount"});

@@ -11,6 +11,7 @@ namespace evigrid {
 class Shield {
  public:
   Shield(const Plan&, const Admission&, const TileSource&);
+  /// A device does not have what is put back.
   void restore() const noexcept;
 
  private:
@@ -19,6 +20,7 @@ class Shield {
     float value;
   };
   std::vector<Kept> kept_;
+  std::vector<Tile*> tiles_;
 };
 
 }  // namespace evigrid
