@@ -10,6 +10,7 @@
 #include "evigrid/scenes/simulate.hpp"
 #include "paper/agreement.hpp"
 #include "paper/plot.hpp"
+#include "paper/points.hpp"
 #include "paper/runs.hpp"
 #include "paper/station_rooms.hpp"
 #include "picture/map_picture.hpp"

@@ -10,6 +10,7 @@
 
 #include "error.hpp"
 #include "options.hpp"
+#include "paper/points.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -53,8 +54,6 @@ void move_towards(scenes::LiveRobot& robot, raycast::Point aim) {
 }
 
 }  // namespace
-
-double distance(raycast::Point a, raycast::Point b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
 StationRun move_to_station(const PaperWorld& w, const scenes::Pose& start, std::uint64_t seed, const StationOptions& o,
                            const std::function<void(const Map&, const StationRun&)>& after) {

@@ -54,7 +54,4 @@ struct Spread {
 /// Centre of the smallest circle around the ends, by Bădoiu & Clarkson's iteration (2003).
 [[nodiscard]] raycast::Point enclosing_centre(const std::vector<StationRun>& runs);
 
-[[nodiscard]] double distance(raycast::Point a, raycast::Point b);
-[[nodiscard]] inline raycast::Point place(const scenes::Pose& p) { return {p.x_m, p.y_m}; }
-
 }  // namespace evigrid::driver

@@ -2,19 +2,16 @@
 // Ways through the free space of a user's building, as someone who knows the plan would take them: for choosing loops
 // and goals, and as the yardstick of what a robot drives that does not know it.
 #pragma once
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
 
 #include "evigrid/scenes/scene.hpp"
 #include "navigate/astar.hpp"
+#include "paper/points.hpp"
 
 namespace evigrid::driver {
 
-[[nodiscard]] inline double distance(raycast::Point a, raycast::Point b) {
-  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-}
 /// m along straight lines from point to point.
 [[nodiscard]] double length_of(const std::vector<raycast::Point>& way);
 /// The way between two lengths along it, both within [0, length_of(way)]; at least one point.

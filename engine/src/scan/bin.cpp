@@ -29,6 +29,7 @@ void list_reaches(std::vector<Footprint>& footprints, const kernels::KernelTable
                               plan.cone);
     }
   } all{footprints, table, store, plan};
+  if (plan.lists.empty()) return;
   if (plan.lists.size() == 1) return all.list(0);
   executor.run(
       static_cast<std::int64_t>(plan.lists.size()),

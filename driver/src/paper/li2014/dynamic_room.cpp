@@ -16,6 +16,7 @@
 #include "paper/li2014/field.hpp"
 #include "paper/li2014/germ_robot.hpp"
 #include "paper/li2014/path_agent.hpp"
+#include "paper/points.hpp"
 #include "paper/robot_map.hpp"
 #include "score/truth.hpp"
 
@@ -26,9 +27,6 @@ constexpr double kNear_m = 0.05;     // between a thing's outline and a cell tha
 constexpr double kEcho_m = 0.06;     // between a reading and the leg that gave it
 constexpr double kGone_m = 0.15;     // a place is left when the person is farther than this from it
 constexpr double kOutline_m = 0.01;  // between two points of an outline
-
-raycast::Point place(const scenes::Pose& p) { return {p.x_m, p.y_m}; }
-double distance(raycast::Point a, raycast::Point b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
 std::vector<raycast::Point> outline(const raycast::Box& b) {
   std::vector<raycast::Point> out;

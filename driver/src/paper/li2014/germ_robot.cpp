@@ -10,6 +10,7 @@
 #include "paper/li2014/heading.hpp"
 #include "paper/li2014/potential_field.hpp"
 #include "paper/li2014/walkers.hpp"
+#include "paper/points.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -20,8 +21,6 @@ constexpr double kTurningGoal_m = 0.08;  // where a turning goal counts as reach
 constexpr double kAhead_s = 0.5;         // how far ahead the avoid agent looks
 constexpr double kTooNear_m = 0.01;      // from the rim, within that time
 
-raycast::Point place(const scenes::Pose& p) { return {p.x_m, p.y_m}; }
-double distance(raycast::Point a, raycast::Point b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 double direction(raycast::Point from, raycast::Point to) { return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m); }
 
 /// The goto agent: straight for the turning goal, and into the next leg before the corner is reached.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "navigate/distance_transform.hpp"
+#include "paper/points.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -13,8 +14,6 @@ constexpr float kNearWeight = 4;    // how much dearer a step is at the edge of 
 constexpr double kNear_m = 0.15;    // and as far beyond it as this
 constexpr double kAxis_m = 1;       // echoes from farther: the cone is wider than the body, its axis tells no place
 constexpr float kWithinBody = 100;  // a step on blocked ground, from where the robot already stands
-
-double distance(raycast::Point a, raycast::Point b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
 }  // namespace
 
