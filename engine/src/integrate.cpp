@@ -42,8 +42,6 @@ std::string_view not_by_device(const Pipeline& p) {
   const auto revised = [](const CompiledSensor& c) { return c.sensor.revision != nullptr; };
   if (std::any_of(p.sensors.begin(), p.sensors.end(), revised))
     return "readings with a learned revision are fused on the processor";
-  if (p.store.layout().age >= 0 && p.store.layout().paradox >= 0)
-    return "a map that forgets and keeps mass on empty ∩ occupied is fused on the processor";
   return {};
 }
 
@@ -112,11 +110,12 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
     p.store.now_ns = before_ns;
     throw;
   }
-  const Shield shield(s.plan, p.admission, p.store);
   const kernels::RuleArgs rule = args_of(p.params, p.undo);
   s.stats.clear();
-  if (!fused_by_device(p, s, rule)) fuse_regions(p, s, rule);
-  shield.restore();
+  {
+    const Shield shield(s.plan, p.admission, p.store);
+    if (!fused_by_device(p, s, rule)) fuse_regions(p, s, rule);
+  }
   for (const kernels::Stats& region : s.stats) {
     report.cells_updated += region.cells;
     report.total_conflicts += region.total_conflicts;

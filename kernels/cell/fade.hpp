@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forgetting by time (engine/src/grid/decay.hpp), one cell: what is left after Δt, and what masses become of it. In
-// double from + − × ÷ and fma alone, so that it is the same everywhere.
+// Forgetting by time (engine/src/grid/decay.hpp), one cell: what is left after Δt, in double from operations that are
+// exact or rounded correctly, and what becomes of a mass. Devices age their cells by it; the processor's own loop over
+// a micro-tile (decay.cpp) does the same to vectors, and tests hold the two together.
 #pragma once
 #include <cmath>
 #include <cstdint>
+
+#include "kernels/row/portable_math.hpp"
 
 EVIGRID_CELL_BEGIN
 
@@ -25,11 +28,9 @@ EVIGRID_FN float share_left(std::int64_t stamp_ns, float tau_s, std::int64_t now
   return x > 700 ? 0.0f : static_cast<float>(exponential_in_double(-x));
 }
 
-inline constexpr float kLeastKept = 1e-12f;  // what a map takes for 0 (docs/maths.md): so that no denormal arises
-
-/// Keeps `share` of a mass; what it gives up joins `given_up`, what is left `left`.
+/// Keeps `share` (below 1) of a mass; what it gives up joins `given_up`, what is left `left`.
 EVIGRID_FN void keep_share(float share, float& mass, float& given_up, float& left) {
-  const float kept = mass * share, now = kept < kLeastKept ? 0.0f : kept;
+  const float kept = mass * share, now = kept < kLeastMass ? 0.0f : kept;
   given_up = given_up + (mass - now);
   left = left + now;
   mass = now;

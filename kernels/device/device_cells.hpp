@@ -83,10 +83,11 @@ inline constexpr bool kConflictIsExtra<MeanCells> = true;
 template <>
 inline constexpr bool kConflictIsExtra<LogOdds> = true;
 
-/// States whose cells age each by itself. Not OpenCells: their masses below 1e-12 are taken for 0 when a neighbour in
-/// the micro-tile ages (engine/src/grid/decay.cpp), of which a thread knows nothing.
+/// States that are masses, which time can discount.
 template <class State>
 inline constexpr bool kCanForget = RuleOfMasses<State>::kThere;
+template <>
+inline constexpr bool kCanForget<OpenCells> = true;
 
 /// The age of a cell in maps that forget: aged before a reading is fused, put back where it had nothing to say.
 template <class State, bool kForgets>

@@ -6,6 +6,9 @@
 
 namespace evigrid::kernels {
 
+/// What a map takes for 0 (docs/maths.md): so that no denormal arises.
+inline constexpr float kLeastMass = 1e-12f;
+
 struct SinCos {
   double sin, cos;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a batch is shared out: few cones stay with the calling thread, many do not.
+// How a batch is shared out: few cones stay with the calling thread, many do not, and the map is the same.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,6 +48,65 @@ TEST(SharingOut, FewConesStayWithTheCallingThread) {
   EXPECT_LE(most_tasks(8, 2), 1);
   EXPECT_GT(most_tasks(24, 3), 1);
   EXPECT_GT(most_tasks(8, 5), 1);  // large ones are not little work
+}
+
+/// Plays tasks from the last to the first.
+class Backwards final : public Executor {
+ public:
+  [[nodiscard]] int concurrency() const noexcept override { return 3; }
+  [[nodiscard]] std::string_view name() const noexcept override { return "backwards"; }
+  void run(std::int64_t count, Task task, void* context) override {
+    for (std::int64_t i = count; i-- > 0;) task(context, i, static_cast<int>(i % 3));
+  }
+};
+
+/// Twelve scans of 24 cones and a fan in one batch, over new ground and old, below zero too, within a window or not.
+std::uint64_t fused_by(std::shared_ptr<Executor> executor, std::size_t batch, bool window, Report& report) {
+  Map map({}, std::move(executor));
+  if (window) map.set_window(CellRect{-64, -64, 128, 192});
+  std::vector<SensorId> ids;
+  for (int i = 0; i < 25; ++i) {
+    Sensor s;
+    s.T_robot_sensor = {0.1, 0, 0.26 * i};
+    if (i == 24) {
+      s.model = Model::beam;
+      s.beams = 90;
+      s.first_beam_rad = -1.5;
+      s.beam_step_rad = 1.0 / 30;
+    }
+    ids.push_back(map.add(s));
+  }
+  std::vector<std::vector<float>> ranges;
+  std::vector<std::vector<Reading>> readings(12);
+  std::vector<Scan> scans;
+  for (int scan = 0; scan < 12; ++scan) {
+    for (int i = 0; i < 25; ++i)
+      ranges.emplace_back(i == 24 ? 90 : 1, 1.0f + 0.15f * static_cast<float>((7 * scan + 3 * i) % 23));
+  }
+  for (int scan = 0; scan < 12; ++scan) {
+    auto& r = readings[static_cast<std::size_t>(scan)];
+    for (int i = 0; i < 25; ++i)
+      r.push_back({ids[static_cast<std::size_t>(i)], ranges[static_cast<std::size_t>(25 * scan + i)]});
+    scans.push_back({scan, {0.8 * scan - 4, 0.3 * scan - 2, 0.5 * scan}, r});
+  }
+  for (std::size_t i = 0; i < scans.size(); i += batch) report += map.integrate(std::span(scans).subspan(i, batch));
+  return map.hash();
+}
+
+TEST(SharingOut, ManyReadingsAreListedByAllAndGiveTheMapOfSingleScans) {
+  for (const bool window : {false, true}) {
+    Report one;
+    const std::uint64_t want = fused_by(make_serial_executor(), 1, window, one);
+    const std::shared_ptr<Executor> executors[] = {make_serial_executor(), std::make_shared<Backwards>(),
+                                                   make_tbb_executor(2), make_tbb_executor(7)};
+    for (const auto& executor : executors) {
+      Report all;
+      EXPECT_EQ(fused_by(executor, 12, window, all), want) << executor->name();
+      EXPECT_EQ(all.cells_updated, one.cells_updated);
+      EXPECT_EQ(all.readings_used, 12U * (24U + 90U));
+      EXPECT_EQ(all.touched, one.touched);
+    }
+  }
 }
 
 }  // namespace

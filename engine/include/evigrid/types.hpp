@@ -101,6 +101,6 @@ std::span<const Model> all_models() noexcept;
 std::string_view why_not_together(Rule, Model) noexcept;
 
 /// Raised when a change alters the bits of a map; part of every report.
-inline constexpr int kMathsVersion = 2;
+inline constexpr int kMathsVersion = 3;
 
 }  // namespace evigrid

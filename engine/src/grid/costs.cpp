@@ -9,6 +9,8 @@
 namespace evigrid {
 namespace {
 
+using namespace rows;
+
 using kernels::CostArgs;
 
 /// most: the largest cost of what is neither free nor occupied; the least is 1.

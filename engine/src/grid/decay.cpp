@@ -11,7 +11,7 @@ namespace evigrid {
 namespace {
 
 constexpr int kCells = kernels::kMicroCells;
-constexpr float kLeastMass = 1e-12f;  // what a map takes for 0 (docs/maths.md): so that no denormal arises
+using kernels::kLeastMass;
 
 /// exp(−Δt/τ), or what there is to remember of it: neighbours mostly heard the same readings.
 class Shares {
@@ -55,12 +55,13 @@ bool one_age(const float* age) noexcept {
   return differ == 0;
 }
 
-/// Keeps share[i] of each cell's masses; what they give up becomes unknown. Loops over plain arrays: vectors.
+/// Keeps share[i] of each cell's masses (kernels/cell/fade.hpp has it for one); what they give up becomes unknown. A
+/// cell that keeps all is left as it is, whatever its neighbours do. Loops over plain arrays: vectors.
 void fade(const CellLayout& l, const float* __restrict share, float* __restrict micro) noexcept {
   float given_up[kCells] = {}, left[kCells] = {};
   const auto keep = [&](float* __restrict mass) {
     for (int i = 0; i < kCells; ++i) {
-      const float kept = mass[i] * share[i], now = kept < kLeastMass ? 0.0f : kept;
+      const float kept = mass[i] * share[i], now = share[i] == 1 ? mass[i] : kept < kLeastMass ? 0.0f : kept;
       given_up[i] += mass[i] - now;
       left[i] += now;
       mass[i] = now;
@@ -70,7 +71,7 @@ void fade(const CellLayout& l, const float* __restrict share, float* __restrict 
   keep(micro + kCells);
   if (l.paradox >= 0) keep(micro + l.paradox * kCells);
   float* __restrict u = micro + 2 * kCells;
-  for (int i = 0; i < kCells; ++i) u[i] = left[i] == 0 ? 1.0f : u[i] + given_up[i];
+  for (int i = 0; i < kCells; ++i) u[i] = share[i] != 1 && left[i] == 0 ? 1.0f : u[i] + given_up[i];
 }
 
 void age_micro(const CellLayout& l, std::int64_t now_ns, float* micro, Shares& share_of) noexcept {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Forgetting by time, lazily: a cell's masses are those of its stamp, in nanoseconds, and age by exp(−Δt/τ) when a
 // reading comes to it or when it is read; reading never writes back. Three planes behind the others hold the stamp, as
-// the bits of an int64 in two words, and τ of the sensor that spoke last. The kernels know nothing of it: a cell is
-// aged before they fuse and put back as it was when they had nothing to say to it.
+// the bits of an int64 in two words, and τ of the sensor that spoke last. The tables' kernels know nothing of it: a
+// cell is aged before they fuse and put back as it was when they had nothing to say to it.
 #pragma once
 #include <cstdint>
 #include <vector>

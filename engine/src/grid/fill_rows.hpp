@@ -10,7 +10,7 @@
 #include "grid/rect.hpp"
 #include "grid/tile_source.hpp"
 
-namespace evigrid {
+namespace evigrid::rows {
 
 inline constexpr int kSide = kernels::kTileSide, kMicro = kernels::kMicroSide, kCells = kernels::kMicroCells;
 inline constexpr float kZeros[kCells] = {};
@@ -104,4 +104,4 @@ void fill(const TileSource& store, CellRect rect, std::span<T> out, std::ptrdiff
   }
 }
 
-}  // namespace evigrid
+}  // namespace evigrid::rows

@@ -12,6 +12,8 @@
 namespace evigrid {
 namespace {
 
+using namespace rows;
+
 void add_history(const TileSource& store, const float* cells, int x, int y, CellState& out) noexcept {
   const CellLayout& l = store.layout();
   const float* p = cells + store.cell_offset(x, y);

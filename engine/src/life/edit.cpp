@@ -121,6 +121,7 @@ void freeze(const Grid& g, CellRect rect) {
       for (int p = 0; p < g.store.layout().state; ++p) cell[p * kCells] = s.at[p];
       set_age(g.store.layout(), cell, {});
     });
+    t->device_version = kNoVersion;
   }
 }
 

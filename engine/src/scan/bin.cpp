@@ -10,29 +10,31 @@ namespace {
 
 /// A single scan's few readings are not worth waking other threads; more are cut into chunks, some for each thread.
 void list_reaches(std::vector<Footprint>& footprints, const kernels::KernelTable& table, TileStore& store,
-                  Executor& executor, Plan& plan) {
+                  const Admission& admission, Executor& executor, Plan& plan) {
   constexpr std::size_t kAlone = 64, kLeast = 16, kPerThread = 8;
   const std::size_t n = footprints.size();
   const auto threads = static_cast<std::size_t>(executor.concurrency());
   plan.per_list =
       n <= kAlone || threads == 1 ? std::max<std::size_t>(n, 1) : std::max(kLeast, n / (kPerThread * threads));
-  plan.lists.resize((n + plan.per_list - 1) / plan.per_list);
+  plan.lists_used = (n + plan.per_list - 1) / plan.per_list;
+  if (plan.lists.size() < plan.lists_used) plan.lists.resize(plan.lists_used);
   plan.cone.resize(n);
   struct All {
     std::vector<Footprint>& footprints;
     const kernels::KernelTable& table;
     TileStore& store;
+    const Admission& admission;
     Plan& plan;
     void list(std::size_t number) const {
       const std::size_t first = number * plan.per_list;
       plan.lists[number].list(footprints, first, std::min(first + plan.per_list, footprints.size()), table, store,
-                              plan.cone);
+                              admission, plan.cone);
     }
-  } all{footprints, table, store, plan};
-  if (plan.lists.empty()) return;
-  if (plan.lists.size() == 1) return all.list(0);
+  } all{footprints, table, store, admission, plan};
+  if (plan.lists_used == 0) return;
+  if (plan.lists_used == 1) return all.list(0);
   executor.run(
-      static_cast<std::int64_t>(plan.lists.size()),
+      static_cast<std::int64_t>(plan.lists_used),
       [](void* context, std::int64_t number, int) {
         static_cast<const All*>(context)->list(static_cast<std::size_t>(number));
       },
@@ -128,9 +130,9 @@ void bin(std::vector<Footprint>& footprints, const kernels::KernelTable& table, 
   plan.batch = store.begin_operation();
   plan.tiles.clear();
   plan.unsorted.clear();
-  list_reaches(footprints, table, store, executor, plan);
+  list_reaches(footprints, table, store, admission, executor, plan);
   Places places(store, admission, plan);
-  for (const ReachList& list : plan.lists) {
+  for (const ReachList& list : std::span(plan.lists).first(plan.lists_used)) {
     for (const Reached& r : list.reached()) {
       const std::uint32_t place = places.of(r);
       if (place == Places::kRefused) continue;

@@ -35,8 +35,8 @@ struct Plan {
     return std::span(reaches).subspan(region_begin[i], region_begin[i + 1] - region_begin[i]);
   }
 
-  std::vector<ReachList> lists;  // each of per_list footprints
-  std::size_t per_list = 1;
+  std::vector<ReachList> lists;  // the first lists_used of them, each of per_list footprints
+  std::size_t lists_used = 0, per_list = 1;
   std::vector<ConeFootprint> cone;  // by footprint; of fans: anything
   [[nodiscard]] const kernels::ConeCuts* bands(std::uint32_t footprint) const noexcept {
     return lists[footprint / per_list].bands(cone[footprint]);

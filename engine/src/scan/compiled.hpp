@@ -32,7 +32,7 @@ struct Footprint {
   std::unique_ptr<kernels::Fan> fan;  // its ranges in metres until it is compiled
 };
 
-/// The second half of the gate, which takes the time: each footprint by itself, in any order.
+/// What takes the time, after the gate: each footprint by itself, in any order.
 void compile(Footprint&, const kernels::KernelTable&);
 
 }  // namespace evigrid

@@ -11,8 +11,9 @@ namespace evigrid {
 namespace {
 
 constexpr int kCells = kernels::kMicroCells;
-constexpr double kLeastUnknown = 1e-4;                     // a weight has no end: as the rules of weights have it
-constexpr float kLeastMass = 1e-12f, kLeastOpen = 1e-30f;  // what a map takes for 0 (docs/maths.md)
+constexpr double kLeastUnknown = 1e-4;  // a weight has no end: as the rules of weights have it
+using kernels::kLeastMass;
+constexpr float kLeastOpen = 1e-30f;  // where a mass on empty ∩ occupied is kept
 constexpr double kMostWeight = 700;
 
 /// Denœux's weight of evidence of a mass x beside v unknown, as −ln w.
@@ -21,9 +22,7 @@ double weight_of(float x, float v) {
 }
 
 /// Whether a cell's first reading is all that counts.
-bool first_alone(Dependence policy) {
-  return policy == Dependence::once_per_scan || policy == Dependence::independent;
-}
+bool first_alone(Dependence policy) { return policy == Dependence::once_per_scan || policy == Dependence::independent; }
 
 }  // namespace
 

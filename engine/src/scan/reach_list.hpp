@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "grid/admission.hpp"
 #include "grid/tile_store.hpp"
 #include "scan/compiled.hpp"
 #include "scan/cone_list.hpp"
@@ -21,19 +22,22 @@ struct Reached {
 
 class ReachList {
  public:
-  /// Compiles footprints first … end − 1, in their order. cones: by footprint.
+  /// Compiles footprints first … end − 1, in their order, and lists what they may touch, refused tiles among it where
+  /// they exist or a cone asks. cones: by footprint.
   void list(std::span<Footprint> footprints, std::size_t first, std::size_t end, const kernels::KernelTable&,
-            TileStore&, std::span<ConeFootprint> cones);
+            TileStore&, const Admission&, std::span<ConeFootprint> cones);
   [[nodiscard]] std::span<const Reached> reached() const noexcept { return reached_; }
   /// Of a cone that is listed here.
   [[nodiscard]] const kernels::ConeCuts* bands(const ConeFootprint& f) const noexcept { return cones_.bands(f); }
 
  private:
-  void list_fan(std::uint32_t footprint, const kernels::Fan&, const kernels::KernelTable&, TileStore&);
+  void list_fan(std::uint32_t footprint, const kernels::Fan&, const kernels::KernelTable&, TileStore&,
+                const Admission&);
 
   std::vector<Reached> reached_;
   ConeFootprints cones_;
   kernels::FanMicros fan_micros_;
+  TileSet wanted_;  // missing tiles that a fan of the list reaches
 };
 
 }  // namespace evigrid

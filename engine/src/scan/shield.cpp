@@ -20,7 +20,7 @@ Shield::Shield(const Plan& plan, const Admission& admission, const TileSource& s
   }
 }
 
-void Shield::restore() const noexcept {
+Shield::~Shield() {
   for (const Kept& k : kept_) *k.at = k.value;
   for (Tile* tile : tiles_) tile->device_version = kNoVersion;
 }

@@ -11,8 +11,10 @@ namespace evigrid {
 class Shield {
  public:
   Shield(const Plan&, const Admission&, const TileSource&);
-  /// A device does not have what is put back.
-  void restore() const noexcept;
+  /// Puts the cells back, whatever came of the batch. A device does not have them then.
+  ~Shield();
+  Shield(const Shield&) = delete;
+  Shield& operator=(const Shield&) = delete;
 
  private:
   struct Kept {
