@@ -174,7 +174,7 @@ class RegionTask {
     each_micro([&](float* micro) { s_.decayed.hold(micro); });
     s_.decayed.age(b_.p.store, stamp_ns);
     fuse();
-    s_.decayed.settle(b_.p.store, {stamp_ns, static_cast<float>(own_s > 0 ? own_s : b_.p.params.decay_s)});
+    s_.decayed.settle(b_.p.store, {stamp_ns, tau_of(own_s, b_.p.params)});
   }
 
   const Batch& b_;

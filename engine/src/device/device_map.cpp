@@ -9,8 +9,8 @@
 namespace evigrid {
 
 void DeviceMap::list_runs(const MapParams& params, const Scratch& s) {
-  cone_ages_.clear(), fan_ages_.clear();
   run_of_.clear(), place_of_.clear(), cones_.clear(), fans_.clear(), runs_.clear();
+  cone_ages_.clear(), fan_ages_.clear();
   for (const Footprint& f : s.footprints) {
     const int model = f.fan ? -1 : f.cone_model;
     if (runs_.empty() || runs_.back().model != model) runs_.push_back({model, 0, 0});
@@ -23,8 +23,7 @@ void DeviceMap::list_runs(const MapParams& params, const Scratch& s) {
       cones_.push_back(&f.cone);
     }
     if (params.decay_s <= 0) continue;
-    const double own_s = f.sensor->sensor.decay_s;
-    (f.fan ? fan_ages_ : cone_ages_).push_back({f.stamp_ns, static_cast<float>(own_s > 0 ? own_s : params.decay_s)});
+    (f.fan ? fan_ages_ : cone_ages_).push_back({f.stamp_ns, tau_of(f.sensor->sensor.decay_s, params)});
   }
 }
 

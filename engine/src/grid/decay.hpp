@@ -17,6 +17,11 @@ struct CellAge {
   float tau_s = 0;  ///< 0: nothing was ever heard
 };
 
+/// τ of a reading: its sensor's own where it has one (`own_s` > 0), else the map's.
+inline float tau_of(double own_s, const MapParams& p) noexcept {
+  return static_cast<float>(own_s > 0 ? own_s : p.decay_s);
+}
+
 /// The masses of `micros` micro-tiles, one after the other, as they are at `now_ns`: in place, ages untouched. Time
 /// that runs backwards changes nothing.
 void age_masses(const CellLayout&, int planes, std::int64_t now_ns, float* cells, int micros) noexcept;

@@ -31,7 +31,7 @@ void list_reaches(std::vector<Footprint>& footprints, const kernels::KernelTable
                               admission, plan.cone);
     }
   } all{footprints, table, store, admission, plan};
-  if (plan.lists_used == 0) return;
+  if (n == 0) return;
   if (plan.lists_used == 1) return all.list(0);
   executor.run(
       static_cast<std::int64_t>(plan.lists_used),

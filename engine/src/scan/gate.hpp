@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gate: what comes in either becomes a footprint, to be compiled (bin.hpp), or is counted by the reason it was refused.
+// The gate: what comes in either becomes a footprint, to be compiled (bin.hpp), or is counted by the reason it was
+// refused.
 #pragma once
 #include <vector>
 
