@@ -240,7 +240,7 @@ EVIGRID_FN FaintSource<V> drop_paradox(const FaintSource<V>& m) {
 
 template <class V>
 EVIGRID_FN ProbabilitySource<V> drop_paradox(const ProbabilitySource<V>& m) {
-  return m;
+  return {m.x, m.y, m.v, m.gap};
 }
 
 /// A source as memory holds it (kernel_table.hpp, Measured), and back: it keeps its kind, so that the fused and the

@@ -47,11 +47,11 @@ EVIGRID_FN V conflict_of(const OneSided<V>&, const V& k, const V&) {
 }
 template <class V>
 EVIGRID_FN OneSided<V> give_back(const OneSided<V>& m) {
-  return m;
+  return {m.x, {}, m.v};
 }
 template <class V>
 EVIGRID_FN OneSided<V> drop_paradox(const OneSided<V>& m) {
-  return m;
+  return {m.x, {}, m.v};
 }
 
 EVIGRID_CELL_END

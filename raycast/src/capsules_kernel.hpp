@@ -15,6 +15,30 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::ScalableTag<float>;
 using Words = hn::RebindToUnsigned<Floats>;
 
+/// Appends the lanes where `inside`; answers how many. AVX2 has no instruction for it, and Highway's text for it copies
+/// a table of a kilobyte to the stack at every call: few lanes are left mostly, so one by one.
+HWY_INLINE std::size_t append(const hn::Mask<Floats>& inside, const hn::Vec<Floats>& nearest_m,
+                              const hn::Vec<Words>& name, float* to_nearest_m, std::uint32_t* to_name) {
+#if HWY_TARGET == HWY_AVX2
+  alignas(32) float all_m[HWY_LANES(float)];
+  alignas(32) std::uint32_t all_names[HWY_LANES(float)];
+  hn::Store(nearest_m, Floats(), all_m);
+  hn::Store(name, Words(), all_names);
+  std::uint8_t mask[8] = {};
+  hn::StoreMaskBits(Floats(), inside, mask);
+  std::size_t n = 0;
+  for (unsigned left = mask[0]; left != 0; left &= left - 1, ++n) {
+    const int lane = __builtin_ctz(left);
+    to_nearest_m[n] = all_m[lane];
+    to_name[n] = all_names[lane];
+  }
+  return n;
+#else
+  hn::CompressStore(nearest_m, inside, Floats(), to_nearest_m);
+  return hn::CompressStore(name, hn::RebindMask(Words(), inside), Words(), to_name);
+#endif
+}
+
 HWY_ATTR std::size_t capsules(const Capsules& c, std::uint32_t begin, std::uint32_t end, const FloatWedge& w,
                               float limit_m, Proposals& out) {
   const Floats d;
@@ -50,8 +74,7 @@ HWY_ATTR std::size_t capsules(const Capsules& c, std::uint32_t begin, std::uint3
     const auto nearest = hn::Sub(hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y))), wide);
     inside = hn::And(inside, hn::Le(nearest, limit));
     if (hn::AllFalse(d, inside)) continue;
-    hn::CompressStore(nearest, inside, d, &out.nearest_m[at]);
-    at += hn::CompressStore(hn::LoadU(Words(), &c.name[k]), hn::RebindMask(Words(), inside), Words(), &out.name[at]);
+    at += append(inside, nearest, hn::LoadU(Words(), &c.name[k]), &out.nearest_m[at], &out.name[at]);
   }
   return at;
 }
@@ -79,8 +102,7 @@ HWY_ATTR std::size_t squares(const Squares& s, std::uint32_t begin, std::uint32_
     inside = hn::And(inside, hn::Le(nearest, limit));
     if (hn::AllFalse(d, inside)) continue;
     const auto number = hn::Add(hn::Iota(Words(), 0), hn::Set(Words(), static_cast<std::uint32_t>(k)));
-    hn::CompressStore(nearest, inside, d, &out.nearest_m[at]);
-    at += hn::CompressStore(number, hn::RebindMask(Words(), inside), Words(), &out.name[at]);
+    at += append(inside, nearest, number, &out.nearest_m[at], &out.name[at]);
   }
   return at;
 }
