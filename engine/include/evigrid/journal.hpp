@@ -66,7 +66,8 @@ struct JournalContents {
 };
 
 /// Throws MapFileError for what is no journal and for damage in its middle, with the place and how many scans come
-/// before it. A record that is cut short at the end of the file is no damage: it is dropped and counted.
+/// before it. A record that is cut short at the end of the file, or turns to zeros there, is no damage: it is dropped
+/// and counted. No record that can still be read is.
 [[nodiscard]] JournalContents read_journal(const std::filesystem::path& path);
 [[nodiscard]] JournalContents read_journal(std::span<const std::byte>, std::string_view name = "journal");
 

@@ -85,6 +85,18 @@ std::uint32_t record_crc(std::span<const std::byte> first16, std::span<const std
   return io::crc32(all);
 }
 
+bool is_whole(std::span<const std::byte> in) noexcept {
+  const std::size_t bytes = io::number_at<std::uint32_t>(in, 0);
+  return bytes <= in.size() - kRecordHead &&
+         record_crc(in.first(16), in.subspan(kRecordHead, bytes)) == io::number_at<std::uint32_t>(in, 16);
+}
+
+bool is_kind(std::uint32_t kind) noexcept {
+  kind &= ~kCompressed;
+  return kind >= static_cast<std::uint32_t>(JournalEvent::Kind::scan) &&
+         kind <= static_cast<std::uint32_t>(JournalEvent::Kind::move);
+}
+
 std::vector<std::byte> encode(JournalEvent::Kind kind, ScanId id, std::span<const std::byte> payload, bool compress) {
   std::vector<std::byte> frame;
   if (compress) {
