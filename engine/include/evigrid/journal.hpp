@@ -74,10 +74,12 @@ struct JournalContents {
 /// Whether the journal is of maps like this one; kernel and memory cap belong to the machine and may differ.
 [[nodiscard]] bool fits(const JournalContents&, const MapParams&, std::span<const Sensor>);
 
-/// The writer. One thread at a time. Every call returns when the record is with the operating system.
+/// The writer. One thread at a time. Every call returns when the record is with the operating system; of one that
+/// throws nothing is recorded.
 class Journal {
  public:
-  /// A new file for maps with these parameters and sensors. Throws MapFileError when it exists or cannot be written.
+  /// A new file for maps with these parameters and sensors. Throws MapFileError when it exists or cannot be written:
+  /// then there is none. Its name is brought to the disk.
   static Journal create(const std::filesystem::path& path, const MapParams&, std::span<const Sensor>,
                         JournalOptions = {});
   /// Goes on behind what was read; a record that was cut short is cut off.
@@ -91,6 +93,9 @@ class Journal {
   void move(ScanId, const Pose2& T_map_robot);
   void sync();                                         ///< to the disk
   [[nodiscard]] std::uint64_t bytes() const noexcept;  ///< of the file
+  /// Takes back what was recorded since bytes() was this: for what could not be done after all. Where the file cannot
+  /// be cut the calls above throw from then on.
+  void cut(std::uint64_t bytes) noexcept;
 
  private:
   struct EVIGRID_LOCAL Impl;

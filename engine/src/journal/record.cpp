@@ -98,14 +98,18 @@ bool is_kind(std::uint32_t kind) noexcept {
 }
 
 std::vector<std::byte> encode(JournalEvent::Kind kind, ScanId id, std::span<const std::byte> payload, bool compress) {
+  const auto limit = [](std::size_t bytes) {  // of the reader, who holds both sizes against it
+    if (bytes > kMaxPayload) throw std::invalid_argument("journal: a scan is too large for a record");
+  };
+  limit(payload.size());
   std::vector<std::byte> frame;
   if (compress) {
     frame.resize(ZSTD_compressBound(payload.size()));
     const std::size_t n = ZSTD_compress(frame.data(), frame.size(), payload.data(), payload.size(), 1);
     if (ZSTD_isError(n)) throw std::bad_alloc();
     payload = std::span<const std::byte>(frame).first(n);
+    limit(n);
   }
-  if (payload.size() > kMaxPayload) throw std::invalid_argument("journal: a scan is too large for a record");
   io::Bytes head;
   head.put(static_cast<std::uint32_t>(payload.size()));
   head.put(static_cast<std::uint32_t>(kind) + (compress ? kCompressed : 0));

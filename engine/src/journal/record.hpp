@@ -24,7 +24,7 @@ std::uint32_t record_crc(std::span<const std::byte> first16, std::span<const std
 bool is_whole(std::span<const std::byte>) noexcept;
 /// Whether records of that kind are written.
 bool is_kind(std::uint32_t kind) noexcept;
-/// The whole record of an event.
+/// The whole record of an event. Throws std::invalid_argument for one that no reader would take.
 std::vector<std::byte> encode(JournalEvent::Kind, ScanId, std::span<const std::byte> payload, bool compress);
 std::vector<std::byte> scan_payload(const Scan&);
 std::vector<std::byte> pose_payload(const Pose2&);
