@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "equivalence/random_scans.hpp"
 #include "evigrid/evigrid.hpp"
@@ -256,6 +258,76 @@ TEST(Revisable, AJournalTellsTheWholeStory) {
   map.remove(poses[3].id);
   RevisableMap again = RevisableMap::resume(dir.at("j"), {.executor = make_serial_executor()}, options);
   EXPECT_EQ(told(again.map()), told(map.map()));
+}
+
+TEST(Revisable, AScanThatCameTooLateDoesNotHideItsNeighbours) {
+  const auto d = testing::drive(Model::li2014, 6, 6);
+  const auto at = [&](std::size_t i, std::int64_t stamp) {  // all on the same cells
+    Scan s = d->scans[i];
+    s.T_map_robot = {};
+    s.stamp_ns = stamp;
+    return s;
+  };
+  RevisableMap map(new_map(*d), {.reorder_ns = 10});
+  for (const Scan& s : {at(0, 10), at(1, 20), at(2, 30)}) map.integrate(s);
+  EXPECT_EQ(map.integrate(at(3, 1)).too_late, 1u);
+  EXPECT_EQ(map.integrate(at(4, 25)).sorted_in, 1u);
+  EXPECT_EQ(told(map.map()), told_of_scans(*d, {at(0, 10), at(1, 20), at(4, 25), at(2, 30), at(3, 1)}));
+  map.integrate(at(5, 35));
+  EXPECT_EQ(map.integrate(at(0, 32)).sorted_in, 1u);
+  EXPECT_EQ(told(map.map()),
+            told_of_scans(*d, {at(0, 10), at(1, 20), at(4, 25), at(2, 30), at(3, 1), at(0, 32), at(5, 35)}));
+}
+
+TEST(Revisable, StampsAtBothEndsOfTimeAreFarApart) {
+  const auto d = testing::drive(Model::li2014, 2, 6);
+  constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max() / 4 * 3;
+  RevisableMap map(new_map(*d), {.reorder_ns = 10});
+  Scan s = d->scans[0];
+  s.stamp_ns = kFar;
+  map.integrate(s);
+  s.stamp_ns = -kFar;
+  EXPECT_EQ(map.integrate(s).too_late, 1u);
+}
+
+TEST(Revisable, AMapThatForgetsDoesNotGoBackInTime) {
+  const auto d = testing::drive(Model::li2014, 3, 6);
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const MapParams params{.rule = Rule::pcr5, .decay_s = 20};
+  const auto at = [&](std::size_t i, std::int64_t stamp) {
+    Scan s = d->scans[i];
+    s.stamp_ns = stamp;
+    return s;
+  };
+  Map base = new_map(*d, params), wanted = new_map(*d, params);
+  base.integrate(at(0, 100 * kSecond));
+  for (const Scan& s : {at(0, 100 * kSecond), at(2, 50 * kSecond)}) wanted.integrate(s);
+  RevisableMap map(std::move(base));
+  const ScanId id = map.integrate(at(1, 50 * kSecond)).first;
+  map.integrate(at(2, 50 * kSecond));
+  map.remove(id);
+  EXPECT_EQ(stamp_of(map.map()), stamp_of(wanted));
+  EXPECT_EQ(told(map.map()), told(wanted));
+}
+
+/// A base larger than the cap goes back under the scans piece by piece.
+TEST(Revisable, ALoopClosureOverAMapLargerThanMemory) {
+  const auto d = testing::drive(Model::li2014, 60, 8);
+  const TempFolder dir;
+  std::vector<Scan> scans(d->scans);
+  for (std::size_t i = 0; i < scans.size(); ++i) scans[i].T_map_robot.x_m += 4.0 * static_cast<double>(i);
+  Map wanted = new_map(*d);
+  wanted.integrate(scans);
+  Map base = new_map(*d, {.rule = Rule::pcr5, .memory_cap_bytes = wanted.memory_bytes() / 4});
+  base.page_to(dir.path());
+  for (const Scan& s : scans) base.integrate(s);
+  RevisableMap map(std::move(base));
+  for (const Scan& s : scans) map.integrate(s);
+  wanted.integrate(scans);
+  std::vector<ScanPose> poses = map.poses();
+  EXPECT_EQ(map.map().hash(), wanted.hash());
+  map.rebuild(poses);
+  EXPECT_EQ(map.map().hash(), wanted.hash());
 }
 
 TEST(Revisable, AtTheMemoryCapALoopClosureIsRefusedWhole) {
