@@ -310,6 +310,39 @@ TEST(Revisable, AMapThatForgetsDoesNotGoBackInTime) {
   EXPECT_EQ(told(map.map()), told(wanted));
 }
 
+TEST(Revisable, AJournalLargerThanMemoryIsResumedIntoAPageFile) {
+  const auto d = testing::drive(Model::li2014, 150, 8);
+  const TempFolder dir;
+  std::vector<Scan> scans(d->scans);
+  for (std::size_t i = 0; i < scans.size(); ++i) scans[i].T_map_robot.x_m += 2.0 * static_cast<double>(i);
+  Map wanted = new_map(*d);
+  wanted.integrate(scans);
+  {
+    Journal j = Journal::create(dir.at("j"), wanted.params(), wanted.sensors());
+    for (std::size_t i = 0; i < scans.size(); ++i) j.add(i + 1, scans[i]);
+  }
+  const std::size_t cap = wanted.memory_bytes() / 4;
+  EXPECT_THROW(RevisableMap::resume(dir.at("j"), {.memory_cap_bytes = cap}), std::length_error);
+  std::uint64_t read = 0;
+  RevisableMap map = RevisableMap::resume(dir.at("j"), {.executor = make_serial_executor(),
+                                                        .kernel = {},
+                                                        .memory_cap_bytes = cap,
+                                                        .page_directory = dir.path(),
+                                                        .region = {},
+                                                        .bytes_read = &read});
+  EXPECT_EQ(read, std::filesystem::file_size(dir.at("j")));
+  EXPECT_EQ(map.map().hash(), wanted.hash());
+  EXPECT_LE(map.map().memory_bytes(), cap);
+  EXPECT_GT(map.map().paged_bytes(), cap);
+  map.rebuild({});
+  EXPECT_EQ(map.map().hash(), wanted.hash());
+  const std::size_t least = std::size_t{3} << 16;  // one scan alone reaches more
+  EXPECT_THROW(RevisableMap::resume(dir.at("j"), {.memory_cap_bytes = least, .page_directory = dir.path()}),
+               std::length_error);
+  EXPECT_THROW(RevisableMap::resume(dir.at("j"), {.region = CellRect{0, 0, 10, 10}}), std::invalid_argument);
+  EXPECT_THROW(RevisableMap::resume(dir.at("j"), {.page_directory = "/no/such/folder"}), std::system_error);
+}
+
 /// A base larger than the cap goes back under the scans piece by piece.
 TEST(Revisable, ALoopClosureOverAMapLargerThanMemory) {
   const auto d = testing::drive(Model::li2014, 60, 8);
@@ -328,6 +361,19 @@ TEST(Revisable, ALoopClosureOverAMapLargerThanMemory) {
   EXPECT_EQ(map.map().hash(), wanted.hash());
   map.rebuild(poses);
   EXPECT_EQ(map.map().hash(), wanted.hash());
+}
+
+TEST(Revisable, AJournalIsRefusedWhereReadingsMayNotWriteEverywhere) {
+  const auto d = testing::drive(Model::li2014, 1, 6);
+  const TempFolder dir;
+  Map with_window = new_map(*d), with_area = new_map(*d);
+  with_window.set_window({0, 0, 200, 200});
+  with_area.protect({0, 0, 200, 200});
+  const auto journal = [&](const char* name) {
+    return Journal::create(dir.at(name), {.rule = Rule::pcr5}, d->sensors);
+  };
+  EXPECT_THROW(RevisableMap(std::move(with_window), {}, journal("window")), std::invalid_argument);
+  EXPECT_THROW(RevisableMap(std::move(with_area), {}, journal("area")), std::invalid_argument);
 }
 
 TEST(Revisable, AtTheMemoryCapALoopClosureIsRefusedWhole) {

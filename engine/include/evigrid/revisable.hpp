@@ -52,14 +52,17 @@ class RevisableMap {
   };
 
   /// `map` may hold cells already: what it holds comes before all scans. With a journal it must be empty, and every
-  /// call is recorded before it is done. Throws std::invalid_argument for a journal of a map with cells.
+  /// call is recorded before it is done. Throws std::invalid_argument for a journal of a map with cells, with a window
+  /// (Map::set_window) or with protected areas: resume() could not know of them.
   explicit RevisableMap(Map map, RevisableOptions = {}, std::optional<Journal> = {});
   ~RevisableMap();
   RevisableMap(RevisableMap&&) noexcept;
   RevisableMap& operator=(RevisableMap&&) noexcept;
 
   /// Where a run that ended, in whatever way, left off: what its journal holds, fused once, and recorded on.
-  /// `dropped`: bytes of the record that was being written when it ended. Throws MapFileError.
+  /// `dropped`: bytes of the record that was being written when it ended. Throws MapFileError, and as Map::page_to
+  /// where a page directory is given. std::invalid_argument for a region: what lies outside would be missing as soon as
+  /// a scan comes.
   static RevisableMap resume(const std::filesystem::path& journal, const LoadOptions& = {}, RevisableOptions = {},
                              JournalOptions = {}, std::uint64_t* dropped = nullptr);
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "evigrid/combine.hpp"
+#include "io/map_access.hpp"
 #include "journal/recording.hpp"
 #include "journal/scan_order.hpp"
 #include "life/refuse.hpp"
@@ -51,6 +52,8 @@ struct RevisableMap::Impl {
       : map(std::move(m)), options(o), journal(std::move(j)), order(o.reorder_ns) {
     if (journal && map.tiles() > 0)
       throw std::invalid_argument("RevisableMap: a journal cannot say what the map held before its first scan");
+    if (journal && MapAccess::admission(map).restricts())
+      throw std::invalid_argument("RevisableMap: a journal cannot say that the map has a window or protected areas");
     checkpoints.push_back({0, map.view()});
     stamp_before = last_stamp(map);
   }
@@ -287,14 +290,18 @@ RevisableMap::Revision RevisableMap::rebuild(std::span<const ScanPose> poses) { 
 
 RevisableMap RevisableMap::resume(const std::filesystem::path& path, const LoadOptions& load, RevisableOptions options,
                                   JournalOptions journal_options, std::uint64_t* dropped) {
+  if (load.region)
+    throw std::invalid_argument("RevisableMap::resume: scans cannot be fused in a region alone and go on in the whole");
   JournalContents was = read_journal(path);
   MapParams params = was.params;
   if (load.memory_cap_bytes) params.memory_cap_bytes = *load.memory_cap_bytes;
   params.kernel = load.kernel.value_or(kernel_available(params.kernel) ? params.kernel : Kernel::automatic);
+  if (load.bytes_read != nullptr) *load.bytes_read = was.bytes + was.dropped;
   if (dropped != nullptr) *dropped = was.dropped;
   const auto fail = [&](const std::string& why) { throw MapFileError(path.string(), why); };
   try {
     Map map(params, load.executor);
+    if (load.page_directory) map.page_to(*load.page_directory);
     for (const Sensor& sensor : was.sensors) map.add(sensor);
     RevisableMap out(std::move(map), options);
     for (JournalEvent& e : was.events) {
