@@ -268,7 +268,8 @@ TEST(Revisable, AScanThatCameTooLateDoesNotHideItsNeighbours) {
     s.stamp_ns = stamp;
     return s;
   };
-  RevisableMap map(new_map(*d), {.reorder_ns = 10});
+  const TempFolder dir;
+  RevisableMap map(new_map(*d), {.reorder_ns = 10}, Journal::create(dir.at("j"), {.rule = Rule::pcr5}, d->sensors));
   for (const Scan& s : {at(0, 10), at(1, 20), at(2, 30)}) map.integrate(s);
   EXPECT_EQ(map.integrate(at(3, 1)).too_late, 1u);
   EXPECT_EQ(map.integrate(at(4, 25)).sorted_in, 1u);
@@ -277,6 +278,9 @@ TEST(Revisable, AScanThatCameTooLateDoesNotHideItsNeighbours) {
   EXPECT_EQ(map.integrate(at(0, 32)).sorted_in, 1u);
   EXPECT_EQ(told(map.map()),
             told_of_scans(*d, {at(0, 10), at(1, 20), at(4, 25), at(2, 30), at(3, 1), at(0, 32), at(5, 35)}));
+  const RevisableMap again =
+      RevisableMap::resume(dir.at("j"), {.executor = make_serial_executor()}, {.reorder_ns = 10});
+  EXPECT_EQ(told(again.map()), told(map.map()));
 }
 
 TEST(Revisable, StampsAtBothEndsOfTimeAreFarApart) {
