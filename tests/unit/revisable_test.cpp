@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "equivalence/random_scans.hpp"
 #include "evigrid/evigrid.hpp"
@@ -256,6 +258,126 @@ TEST(Revisable, AJournalTellsTheWholeStory) {
   map.remove(poses[3].id);
   RevisableMap again = RevisableMap::resume(dir.at("j"), {.executor = make_serial_executor()}, options);
   EXPECT_EQ(told(again.map()), told(map.map()));
+}
+
+TEST(Revisable, AScanThatCameTooLateDoesNotHideItsNeighbours) {
+  const auto d = testing::drive(Model::li2014, 6, 6);
+  const auto at = [&](std::size_t i, std::int64_t stamp) {  // all on the same cells
+    Scan s = d->scans[i];
+    s.T_map_robot = {};
+    s.stamp_ns = stamp;
+    return s;
+  };
+  const TempFolder dir;
+  RevisableMap map(new_map(*d), {.reorder_ns = 10}, Journal::create(dir.at("j"), {.rule = Rule::pcr5}, d->sensors));
+  for (const Scan& s : {at(0, 10), at(1, 20), at(2, 30)}) map.integrate(s);
+  EXPECT_EQ(map.integrate(at(3, 1)).too_late, 1u);
+  EXPECT_EQ(map.integrate(at(4, 25)).sorted_in, 1u);
+  EXPECT_EQ(told(map.map()), told_of_scans(*d, {at(0, 10), at(1, 20), at(4, 25), at(2, 30), at(3, 1)}));
+  map.integrate(at(5, 35));
+  EXPECT_EQ(map.integrate(at(0, 32)).sorted_in, 1u);
+  EXPECT_EQ(told(map.map()),
+            told_of_scans(*d, {at(0, 10), at(1, 20), at(4, 25), at(2, 30), at(3, 1), at(0, 32), at(5, 35)}));
+  const RevisableMap again =
+      RevisableMap::resume(dir.at("j"), {.executor = make_serial_executor()}, {.reorder_ns = 10});
+  EXPECT_EQ(told(again.map()), told(map.map()));
+}
+
+TEST(Revisable, StampsAtBothEndsOfTimeAreFarApart) {
+  const auto d = testing::drive(Model::li2014, 2, 6);
+  constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max() / 4 * 3;
+  RevisableMap map(new_map(*d), {.reorder_ns = 10});
+  Scan s = d->scans[0];
+  s.stamp_ns = kFar;
+  map.integrate(s);
+  s.stamp_ns = -kFar;
+  EXPECT_EQ(map.integrate(s).too_late, 1u);
+}
+
+TEST(Revisable, AMapThatForgetsDoesNotGoBackInTime) {
+  const auto d = testing::drive(Model::li2014, 3, 6);
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const MapParams params{.rule = Rule::pcr5, .decay_s = 20};
+  const auto at = [&](std::size_t i, std::int64_t stamp) {
+    Scan s = d->scans[i];
+    s.stamp_ns = stamp;
+    return s;
+  };
+  Map base = new_map(*d, params), wanted = new_map(*d, params);
+  base.integrate(at(0, 100 * kSecond));
+  for (const Scan& s : {at(0, 100 * kSecond), at(2, 50 * kSecond)}) wanted.integrate(s);
+  RevisableMap map(std::move(base));
+  const ScanId id = map.integrate(at(1, 50 * kSecond)).first;
+  map.integrate(at(2, 50 * kSecond));
+  map.remove(id);
+  EXPECT_EQ(stamp_of(map.map()), stamp_of(wanted));
+  EXPECT_EQ(told(map.map()), told(wanted));
+}
+
+TEST(Revisable, AJournalLargerThanMemoryIsResumedIntoAPageFile) {
+  const auto d = testing::drive(Model::li2014, 150, 8);
+  const TempFolder dir;
+  std::vector<Scan> scans(d->scans);
+  for (std::size_t i = 0; i < scans.size(); ++i) scans[i].T_map_robot.x_m += 2.0 * static_cast<double>(i);
+  Map wanted = new_map(*d);
+  wanted.integrate(scans);
+  {
+    Journal j = Journal::create(dir.at("j"), wanted.params(), wanted.sensors());
+    for (std::size_t i = 0; i < scans.size(); ++i) j.add(i + 1, scans[i]);
+  }
+  const std::size_t cap = wanted.memory_bytes() / 4;
+  EXPECT_THROW(RevisableMap::resume(dir.at("j"), {.memory_cap_bytes = cap}), std::length_error);
+  std::uint64_t read = 0;
+  RevisableMap map = RevisableMap::resume(dir.at("j"), {.executor = make_serial_executor(),
+                                                        .kernel = {},
+                                                        .memory_cap_bytes = cap,
+                                                        .page_directory = dir.path(),
+                                                        .region = {},
+                                                        .bytes_read = &read});
+  EXPECT_EQ(read, std::filesystem::file_size(dir.at("j")));
+  EXPECT_EQ(map.map().hash(), wanted.hash());
+  EXPECT_LE(map.map().memory_bytes(), cap);
+  EXPECT_GT(map.map().paged_bytes(), cap);
+  map.rebuild({});
+  EXPECT_EQ(map.map().hash(), wanted.hash());
+  const std::size_t least = std::size_t{3} << 16;  // one scan alone reaches more
+  EXPECT_THROW(RevisableMap::resume(dir.at("j"), {.memory_cap_bytes = least, .page_directory = dir.path()}),
+               std::length_error);
+  EXPECT_THROW(RevisableMap::resume(dir.at("j"), {.region = CellRect{0, 0, 10, 10}}), std::invalid_argument);
+  EXPECT_THROW(RevisableMap::resume(dir.at("j"), {.page_directory = "/no/such/folder"}), std::system_error);
+}
+
+/// A base larger than the cap goes back under the scans piece by piece.
+TEST(Revisable, ALoopClosureOverAMapLargerThanMemory) {
+  const auto d = testing::drive(Model::li2014, 60, 8);
+  const TempFolder dir;
+  std::vector<Scan> scans(d->scans);
+  for (std::size_t i = 0; i < scans.size(); ++i) scans[i].T_map_robot.x_m += 4.0 * static_cast<double>(i);
+  Map wanted = new_map(*d);
+  wanted.integrate(scans);
+  Map base = new_map(*d, {.rule = Rule::pcr5, .memory_cap_bytes = wanted.memory_bytes() / 4});
+  base.page_to(dir.path());
+  for (const Scan& s : scans) base.integrate(s);
+  RevisableMap map(std::move(base));
+  for (const Scan& s : scans) map.integrate(s);
+  wanted.integrate(scans);
+  std::vector<ScanPose> poses = map.poses();
+  EXPECT_EQ(map.map().hash(), wanted.hash());
+  map.rebuild(poses);
+  EXPECT_EQ(map.map().hash(), wanted.hash());
+}
+
+TEST(Revisable, AJournalIsRefusedWhereReadingsMayNotWriteEverywhere) {
+  const auto d = testing::drive(Model::li2014, 1, 6);
+  const TempFolder dir;
+  Map with_window = new_map(*d), with_area = new_map(*d);
+  with_window.set_window({0, 0, 200, 200});
+  with_area.protect({0, 0, 200, 200});
+  const auto journal = [&](const char* name) {
+    return Journal::create(dir.at(name), {.rule = Rule::pcr5}, d->sensors);
+  };
+  EXPECT_THROW(RevisableMap(std::move(with_window), {}, journal("window")), std::invalid_argument);
+  EXPECT_THROW(RevisableMap(std::move(with_area), {}, journal("area")), std::invalid_argument);
 }
 
 TEST(Revisable, AtTheMemoryCapALoopClosureIsRefusedWhole) {

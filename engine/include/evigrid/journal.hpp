@@ -66,17 +66,20 @@ struct JournalContents {
 };
 
 /// Throws MapFileError for what is no journal and for damage in its middle, with the place and how many scans come
-/// before it. A record that is cut short at the end of the file is no damage: it is dropped and counted.
+/// before it. A record that is cut short at the end of the file, or turns to zeros there, is no damage: it is dropped
+/// and counted. No record that can still be read is.
 [[nodiscard]] JournalContents read_journal(const std::filesystem::path& path);
 [[nodiscard]] JournalContents read_journal(std::span<const std::byte>, std::string_view name = "journal");
 
 /// Whether the journal is of maps like this one; kernel and memory cap belong to the machine and may differ.
 [[nodiscard]] bool fits(const JournalContents&, const MapParams&, std::span<const Sensor>);
 
-/// The writer. One thread at a time. Every call returns when the record is with the operating system.
+/// The writer. One thread at a time. Every call returns when the record is with the operating system; of one that
+/// throws nothing is recorded.
 class Journal {
  public:
-  /// A new file for maps with these parameters and sensors. Throws MapFileError when it exists or cannot be written.
+  /// A new file for maps with these parameters and sensors. Throws MapFileError when it exists or cannot be written:
+  /// then there is none. Its name is brought to the disk.
   static Journal create(const std::filesystem::path& path, const MapParams&, std::span<const Sensor>,
                         JournalOptions = {});
   /// Goes on behind what was read; a record that was cut short is cut off.
@@ -90,6 +93,9 @@ class Journal {
   void move(ScanId, const Pose2& T_map_robot);
   void sync();                                         ///< to the disk
   [[nodiscard]] std::uint64_t bytes() const noexcept;  ///< of the file
+  /// Takes back what was recorded since bytes() was this: for what could not be done after all. Where the file cannot
+  /// be cut the calls above throw from then on.
+  void cut(std::uint64_t bytes) noexcept;
 
  private:
   struct EVIGRID_LOCAL Impl;

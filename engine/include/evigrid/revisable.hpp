@@ -21,7 +21,8 @@ namespace EVIGRID_API evigrid {
 
 struct RevisableOptions {
   /// A scan at most this much older than the newest is put in its place by its stamp (equal stamps: as they came): the
-  /// map is that of the sorted log. An older one is fused where it comes, as Map does, and counted. 0: none is sorted.
+  /// map is that of the sorted log. An older one is fused where it comes, as Map does, and counted; it stays there, and
+  /// those that come after it are sorted as if it were not. 0: none is sorted.
   std::int64_t reorder_ns = 0;
   /// A view is kept every so many scans (and four times a reorder window), so that a change need not begin with the
   /// first scan; the oldest go. They hold copies of tiles that changed since: memory for time. 0: none.
@@ -33,6 +34,8 @@ struct ScanPose {
   Pose2 T_map_robot{};
 };
 
+/// A call that throws std::length_error at the memory cap, or because its journal cannot be written, was not done: map,
+/// scans and journal are as they were. Of a call with many scans the first may have been done; scans() says so.
 class RevisableMap {
  public:
   /// What became of a scan.
@@ -49,14 +52,17 @@ class RevisableMap {
   };
 
   /// `map` may hold cells already: what it holds comes before all scans. With a journal it must be empty, and every
-  /// call is recorded before it is done. Throws std::invalid_argument for a journal of a map with cells.
+  /// call is recorded before it is done. Throws std::invalid_argument for a journal of a map with cells, with a window
+  /// (Map::set_window) or with protected areas: resume() could not know of them.
   explicit RevisableMap(Map map, RevisableOptions = {}, std::optional<Journal> = {});
   ~RevisableMap();
   RevisableMap(RevisableMap&&) noexcept;
   RevisableMap& operator=(RevisableMap&&) noexcept;
 
   /// Where a run that ended, in whatever way, left off: what its journal holds, fused once, and recorded on.
-  /// `dropped`: bytes of the record that was being written when it ended. Throws MapFileError.
+  /// `dropped`: bytes of the record that was being written when it ended. Throws MapFileError, and as Map::page_to
+  /// where a page directory is given. std::invalid_argument for a region: what lies outside would be missing as soon as
+  /// a scan comes.
   static RevisableMap resume(const std::filesystem::path& journal, const LoadOptions& = {}, RevisableOptions = {},
                              JournalOptions = {}, std::uint64_t* dropped = nullptr);
 
@@ -68,7 +74,8 @@ class RevisableMap {
   /// As if it had come from there.
   Revision move(ScanId, const Pose2& T_map_robot);
   /// Poses of any scans, as a loop closure gives them; one pass over all scans. Throws std::out_of_range, and at the
-  /// memory cap std::length_error: then the map is as it was.
+  /// memory cap std::length_error. There must be room for the way back, too: for the map as it is, beside those of its
+  /// tiles that views hold.
   Revision rebuild(std::span<const ScanPose>);
 
   [[nodiscard]] const Map& map() const noexcept;

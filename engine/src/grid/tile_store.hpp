@@ -52,6 +52,7 @@ class TileStore final : public TileSource {
 
   /// From now on tiles may be paged to a file in that directory when the cap is reached. Throws std::system_error.
   void page_to(const std::filesystem::path& directory);
+  [[nodiscard]] bool pages() const noexcept { return pages_; }
   /// Something is about to write to tiles. Those that it reaches (pin, own, get_or_make) are not paged out before the
   /// next operation begins.
   std::uint64_t begin_operation() noexcept { return ++operation_; }

@@ -15,6 +15,7 @@
 #include "io/header.hpp"
 #include "io/layout.hpp"
 #include "io/map_access.hpp"
+#include "io/sync_folder.hpp"
 #include "io/tile_codec.hpp"
 
 namespace evigrid {
@@ -134,11 +135,7 @@ class NewFile {
     descriptor_ = -1;
     if (closed != 0 || ::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
     done_ = true;
-    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-    if (const int d = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); d >= 0) {
-      ::fsync(d);  // the new name too; some file systems cannot, and the map is whole either way
-      ::close(d);
-    }
+    io::sync_folder_of(target_);
   }
 
  private:

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nothing is believed before its checksum. What was being written when the process or the machine died is at the end:
-// a record that reaches beyond the file, or the last one with a wrong checksum, or zeros that a file system left.
+// Nothing is believed before its checksum. What was being written when the process or the machine died is at the end
+// (tail.hpp) and dropped.
 #include <algorithm>
 #include <fstream>
 
 #include "io/header.hpp"
 #include "io/layout.hpp"
 #include "journal/record.hpp"
+#include "journal/tail.hpp"
 
 namespace evigrid {
 namespace {
@@ -49,16 +50,11 @@ JournalContents read_journal(Bytes in, std::string_view name) {
       throw MapFileError(name, "record at byte " + std::to_string(at) + " " + why + "; " + std::to_string(scans) +
                                    " scans come before it");
     };
-    if (left.size() < journal::kRecordHead ||
-        std::all_of(left.begin(), left.end(), [](std::byte b) { return b == std::byte{0}; }))
-      break;
-    const std::size_t bytes = io::number_at<std::uint32_t>(left, 0);
-    if (bytes > left.size() - journal::kRecordHead) break;
-    const Bytes payload = left.subspan(journal::kRecordHead, bytes);
-    if (journal::record_crc(left.first(16), payload) != io::number_at<std::uint32_t>(left, 16)) {
-      if (journal::kRecordHead + bytes == left.size()) break;
-      damaged("has a wrong checksum");
+    if (left.size() < journal::kRecordHead || !journal::is_whole(left)) {
+      if (journal::is_torn_tail(left)) break;
+      damaged("has a wrong length or checksum");
     }
+    const Bytes payload = left.subspan(journal::kRecordHead, io::number_at<std::uint32_t>(left, 0));
     try {
       out.events.push_back(
           journal::decode(io::number_at<std::uint32_t>(left, 4), io::number_at<std::uint64_t>(left, 8), payload));
@@ -66,7 +62,7 @@ JournalContents read_journal(Bytes in, std::string_view name) {
       damaged(bad.what());
     }
     scans += out.events.back().kind == JournalEvent::Kind::scan;
-    at += journal::kRecordHead + bytes;
+    at += journal::kRecordHead + payload.size();
   }
   out.bytes = at;
   out.dropped = in.size() - at;

@@ -85,15 +85,31 @@ std::uint32_t record_crc(std::span<const std::byte> first16, std::span<const std
   return io::crc32(all);
 }
 
+bool is_whole(std::span<const std::byte> in) noexcept {
+  const std::size_t bytes = io::number_at<std::uint32_t>(in, 0);
+  return bytes <= in.size() - kRecordHead &&
+         record_crc(in.first(16), in.subspan(kRecordHead, bytes)) == io::number_at<std::uint32_t>(in, 16);
+}
+
+bool is_kind(std::uint32_t kind) noexcept {
+  kind &= ~kCompressed;
+  return kind >= static_cast<std::uint32_t>(JournalEvent::Kind::scan) &&
+         kind <= static_cast<std::uint32_t>(JournalEvent::Kind::move);
+}
+
 std::vector<std::byte> encode(JournalEvent::Kind kind, ScanId id, std::span<const std::byte> payload, bool compress) {
+  const auto limit = [](std::size_t bytes) {  // of the reader, who holds both sizes against it
+    if (bytes > kMaxPayload) throw std::invalid_argument("journal: a scan is too large for a record");
+  };
+  limit(payload.size());
   std::vector<std::byte> frame;
   if (compress) {
     frame.resize(ZSTD_compressBound(payload.size()));
     const std::size_t n = ZSTD_compress(frame.data(), frame.size(), payload.data(), payload.size(), 1);
     if (ZSTD_isError(n)) throw std::bad_alloc();
     payload = std::span<const std::byte>(frame).first(n);
+    limit(n);
   }
-  if (payload.size() > kMaxPayload) throw std::invalid_argument("journal: a scan is too large for a record");
   io::Bytes head;
   head.put(static_cast<std::uint32_t>(payload.size()));
   head.put(static_cast<std::uint32_t>(kind) + (compress ? kCompressed : 0));

@@ -20,7 +20,11 @@ inline constexpr std::uint32_t kVersion = 1, kCompressed = 256;
 inline constexpr std::size_t kRecordHead = 20, kMaxPayload = std::size_t{256} << 20;
 
 std::uint32_t record_crc(std::span<const std::byte> first16, std::span<const std::byte> payload) noexcept;
-/// The whole record of an event.
+/// Whether bytes that are at least a record's head begin with a record that ends within them, its checksum right.
+bool is_whole(std::span<const std::byte>) noexcept;
+/// Whether records of that kind are written.
+bool is_kind(std::uint32_t kind) noexcept;
+/// The whole record of an event. Throws std::invalid_argument for one that no reader would take.
 std::vector<std::byte> encode(JournalEvent::Kind, ScanId, std::span<const std::byte> payload, bool compress);
 std::vector<std::byte> scan_payload(const Scan&);
 std::vector<std::byte> pose_payload(const Pose2&);

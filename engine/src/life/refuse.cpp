@@ -82,6 +82,14 @@ void put_back(Map& map, const TileSet& tiles, const MapView& view) {
   if (!fresh.tiles.empty()) changes.commit();
 }
 
+void reserve_to_refuse(Map& map, std::size_t tiles) {
+  TileStore& store = MapAccess::store(map);
+  if (store.pages()) return;  // what only views hold goes to the file
+  std::size_t all = tiles;
+  for (const auto& [at, tile] : store.tiles()) all += static_cast<std::size_t>(store.seen(tile));
+  if (all > store.size()) store.reserve(all - store.size());
+}
+
 Report integrate_on(Map& map, const TileSet& tiles, std::span<const Scan> scans) {
   struct Only {
     Admission& admission;

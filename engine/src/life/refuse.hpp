@@ -17,6 +17,9 @@ std::vector<std::vector<TileIndex>> tiles_reached(const Map&, std::size_t scans)
 std::vector<TileIndex> tiles_of_scan(Map&, const Scan&);
 /// These tiles as they were in the view, and vacuous where it has none. Throws before anything is changed.
 void put_back(Map&, const TileSet&, const MapView&);
+/// Whether all tiles can be dropped and so many made in their place, beside those that views hold and that stay in
+/// memory. Throws std::length_error; in maps that page those go to the file.
+void reserve_to_refuse(Map&, std::size_t tiles);
 /// Fuses the scans on these tiles alone.
 Report integrate_on(Map&, const TileSet&, std::span<const Scan>);
 /// Gives them back.
