@@ -73,9 +73,9 @@ SensorId Map::add(const Sensor& sensor) {
   if (errors.empty()) errors = check_pair(impl_->params.rule, sensor);
   if (errors.empty()) errors = check_reach(sensor, impl_->params.cell_m);
   if (!errors.empty()) throw std::invalid_argument(describe(errors));
-  impl_->compiled.emplace_back(sensor, impl_->params.cell_m);
   auto all = std::make_shared<std::vector<Sensor>>(*impl_->sensors);
   all->push_back(sensor);
+  impl_->compiled.emplace_back(sensor, impl_->params.cell_m);  // the last that may throw
   impl_->sensors = std::move(all);
   return static_cast<SensorId>(impl_->sensors->size() - 1);
 }
@@ -125,7 +125,7 @@ MapView Map::view() {
   Impl& m = *impl_;
   auto catalog = m.cataloguer.bring_up_to_date(m.store, m.changes);
   return MapView(std::make_shared<const ViewState>(m.store, std::move(catalog),
-                                                   ViewState::Facts{m.params, m.sensors, m.changes.losses()}));
+                                                   ViewState::Facts{m.params, m.sensors, m.changes.losses(), m.admission}));
 }
 
 void Map::page_to(const std::filesystem::path& directory) { impl_->store.page_to(directory); }
@@ -176,6 +176,7 @@ const TileSource& MapAccess::source(const Map& m) noexcept { return m.impl_->sto
 TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
 Admission& MapAccess::admission(Map& m) noexcept { return m.impl_->admission; }
+const Admission& MapAccess::admission(const Map& m) noexcept { return m.impl_->admission; }
 Scratch& MapAccess::scratch(Map& m) noexcept { return m.impl_->scratch; }
 const Scratch& MapAccess::scratch(const Map& m) noexcept { return m.impl_->scratch; }
 Pipeline MapAccess::pipeline(Map& m) noexcept { return m.impl_->pipeline(); }

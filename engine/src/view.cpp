@@ -48,6 +48,7 @@ std::uint64_t MapView::version() const noexcept { return state_->facts().losses.
 Changes MapView::changes(std::uint64_t since) const { return state_->changes(since); }
 
 const TileSource& MapAccess::source(const MapView& v) noexcept { return *v.state_; }
+const Admission& MapAccess::admission(const MapView& v) noexcept { return v.state_->facts().admission; }
 std::int64_t MapAccess::last_stamp_ns(const MapView& v) noexcept { return v.state_->now_ns; }
 
 }  // namespace evigrid

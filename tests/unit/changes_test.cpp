@@ -156,5 +156,22 @@ TEST(Changes, ALoadedMapIsNewAsAWhole) {
   EXPECT_TRUE(consumer.costs == whole(loaded));
 }
 
+TEST(Changes, WhereTooMuchWasDroppedAllThatIsLeftIsListed) {
+  Map map({.rule = Rule::dempster}, make_serial_executor());
+  const std::vector<Mass> wall{{0, 0.9f, 0.1f}};
+  const CellIndex stays{-640, 5};
+  map.write({stays.x, stays.y, 1, 1}, wall, 1);
+  for (std::int64_t i = 0; i < 4200; ++i) map.write({64 * i, 64, 1, 1}, wall, 1);
+  const std::uint64_t drawn = map.version();
+  map.clear({0, 0, 64 * 4200, 128});  // more tiles than are remembered one by one
+  const MapView view = map.view();
+  for (const Changes& c : {map.changes(drawn), view.changes(drawn)}) {
+    EXPECT_TRUE(c.cleared);
+    EXPECT_TRUE(std::any_of(c.rects.begin(), c.rects.end(), [&](const CellRect& r) {
+      return stays.x >= r.x && stays.x < r.x + r.width && stays.y >= r.y && stays.y < r.y + r.height;
+    }));
+  }
+}
+
 }  // namespace
 }  // namespace evigrid

@@ -86,5 +86,11 @@ INSTANTIATE_TEST_SUITE_P(Rules, CostsOfEveryRule, testing::ValuesIn(map_rules().
                            return word;
                          });
 
+TEST(Costs, ACellThatHoldsNothingButParadoxIsHalfOfEither) {
+  const Mass m{0, 0, 0, 1};
+  EXPECT_EQ(occupancy_of({}, m), occupancy_of({}, Mass{0.5f, 0.5f, 0, 0}));
+  EXPECT_EQ(cost_of({}, m), cost_of({}, Mass{0.5f, 0.5f, 0, 0}));
+}
+
 }  // namespace
 }  // namespace evigrid

@@ -119,5 +119,25 @@ TEST(HostileMap, TilesInTheWrongPlace) {
   EXPECT_NE(message_of(sealed(s)).find("entry of tile 0 is wrong"), std::string::npos);
 }
 
+TEST(HostileMap, AreasThatNoMapHas) {
+  const auto with = [](const std::string& line) {
+    std::string s = saved();
+    const std::size_t at = s.find("cell_m=");
+    s.insert(at, line);
+    put(s, 12, number(s, 12, 4) + line.size(), 4);
+    const std::size_t tail = s.size() - 40, directory = number(s, tail, 8) + line.size();
+    put(s, tail, directory, 8);
+    put(s, tail + 16, number(s, tail + 16, 8) + line.size(), 8);
+    for (std::size_t e = directory; e < tail; e += 32) put(s, e + 16, number(s, e + 16, 8) + line.size(), 8);
+    return message_of(sealed(s));
+  };
+  EXPECT_EQ(with("window=0,0,64,64\nprotected=1,2,3,4\nprotected=-1,2,3,4\n"), "no error");
+  for (const char* bad :
+       {"window=0,0,64\n", "window=0,0,64,64,1\n", "window=0,0,0,64\n", "protected=0,0,-1,1\n", "protected=\n",
+        "protected=1e3,0,1,1\n", "window=9223372036854775807,0,64,64\n", "protected=0,0,9223372036854775807,1\n"}) {
+    EXPECT_NE(with(bad).find("has the bad value"), std::string::npos) << bad << with(bad);
+  }
+}
+
 }  // namespace
 }  // namespace evigrid

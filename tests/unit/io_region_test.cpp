@@ -127,5 +127,15 @@ TEST(PartOfASavedMap, DamageIsSeenWhereItIsRead) {
   EXPECT_NO_THROW((void)load(view(bytes), {.region = CellRect{b.x, b.y + 64, b.width, b.height}}));
 }
 
+TEST(PartOfASavedMap, AtTheEndOfWhatAMapMayHave) {
+  Map map({.rule = Rule::dempster}, make_serial_executor());
+  const std::vector<Mass> wall{{0, 0.9f, 0.1f}};
+  const std::int64_t far = std::int64_t{1} << 60;
+  map.write({far, 0, 1, 1}, wall, 1);
+  const std::string bytes = bytes_of(map);
+  const Map part = load(view(bytes), {.region = CellRect{far, 0, 1, 1}});
+  EXPECT_EQ(part.hash(), map.hash());
+}
+
 }  // namespace
 }  // namespace evigrid

@@ -8,9 +8,13 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "equivalence/random_scans.hpp"
 #include "evigrid/io.hpp"
+#include "evigrid/merge.hpp"
+#include "temp_folder.hpp"
 #include "unit/golden_map.hpp"
 
 namespace evigrid {
@@ -270,6 +274,72 @@ TEST(SavedMap, AFileOfVersionOneStaysReadable) {
   const float range_m = 1;
   const Reading reading{0, {&range_m, 1}};
   EXPECT_EQ(map.integrate(Scan{41, {}, {&reading, 1}}).stamps_backwards, 1u);  // its last stamp was 42
+}
+
+TEST(SavedMap, WindowAndProtectedAreasGoOn) {
+  const auto d = testing::drive(Model::li2014, 24, 3);
+  Map map = driven(*d, {}, 12);
+  map.set_window({-64, -64, 128, 192});
+  map.protect({3, -5, 40, 20});
+  map.protect({-30, 10, 7, 9});
+  const std::string of_map = bytes_of(map);
+  std::ostringstream of_view;
+  save(map.view(), of_view);
+  EXPECT_EQ(of_view.str(), of_map);
+  Map loaded = load(view(of_map));
+  EXPECT_EQ(bytes_of(loaded), of_map);
+  ASSERT_EQ(loaded.protected_areas().size(), 2u);
+  EXPECT_EQ(loaded.protected_areas()[0], (CellRect{3, -5, 40, 20}));
+  EXPECT_EQ(inspect(view(of_map)).window, (CellRect{-64, -64, 128, 192}));
+  Map free = driven(*d, {}, 12);
+  for (Map* const m : {&map, &loaded, &free}) m->integrate(std::span(d->scans).subspan(12));
+  expect_same_bits(loaded, map);
+  EXPECT_NE(map.hash(), free.hash());  // they kept something off
+}
+
+TEST(SavedMap, TheWidestWindowIsReadAgain) {
+  Map map = tiny();
+  const std::int64_t far = std::int64_t{1} << 60;
+  map.set_window({1 - far, 1 - far, 2 * far, 2 * far});
+  EXPECT_EQ(load(view(bytes_of(map))).hash(), map.hash());
+}
+
+TEST(SavedMap, ThreadsThatSaveToOnePathLeaveAWholeMap) {
+  const TempFolder folder;
+  const auto path = folder.path() / "map.evigrid";
+  const auto d = testing::drive(Model::li2014, 12, 3);
+  const Map map = driven(*d, {}, 12);
+  std::vector<std::thread> savers;
+  for (int i = 0; i < 4; ++i)
+    savers.emplace_back([&] {
+      for (int k = 0; k < 10; ++k) save(map, path);
+    });
+  for (int k = 0; k < 20; ++k) {
+    if (std::filesystem::exists(path)) {
+      EXPECT_EQ(load(path).hash(), map.hash());
+    }
+  }
+  for (std::thread& t : savers) t.join();
+  EXPECT_EQ(load(path).hash(), map.hash());
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(SavedMap, AStreamThatFailsAtItsEndIsAnError) {
+  struct Full final : std::stringbuf {
+    int sync() override { return -1; }
+  } full;
+  std::ostream out(&full);
+  EXPECT_THROW(save(tiny(), out), MapFileError);
+}
+
+TEST(SavedMap, ConflictOfMembershipsMayBeMoreThanOne) {
+  const MapParams params{.rule = Rule::fuzzy, .keep_last_conflict = true};
+  Map a(params, make_serial_executor()), b(params, make_serial_executor());
+  const std::vector<Mass> both{{0.9f, 0.8f, 0, 0}};
+  a.write({0, 0, 1, 1}, both, 1), b.write({0, 0, 1, 1}, both, 1);
+  merge(a, b.view());
+  ASSERT_GT(a.last_conflict({0, 0}), 1.1f);
+  EXPECT_EQ(load(view(bytes_of(a))).last_conflict({0, 0}), a.last_conflict({0, 0}));
 }
 
 }  // namespace

@@ -205,5 +205,13 @@ TEST(Map, HashSeesOneBitAndNotTheTiles) {
   EXPECT_NE(a.map.hash(), b.map.hash());
 }
 
+TEST(Map, PlacesThatNoCellHasAreAnsweredByTheFarthest) {
+  const Map map({.cell_m = 0.05}, make_serial_executor());
+  const std::int64_t far = std::int64_t{1} << 60;
+  EXPECT_EQ(map.cell_at(1e300, -1e300), (CellIndex{far, -far}));
+  EXPECT_EQ(map.cell_at(std::nan(""), 0.12), (CellIndex{-far, 2}));
+  EXPECT_EQ(map.mass(map.cell_at(std::nan(""), 1e300)), Mass{});
+}
+
 }  // namespace
 }  // namespace evigrid

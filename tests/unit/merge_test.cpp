@@ -178,5 +178,52 @@ TEST(Merge, WhatDoesNotFitIsNamed) {
   EXPECT_EQ(message({.rule = Rule::bayes}, {.rule = Rule::pcr5}), "");
 }
 
+TEST(Merge, WhatIsOldComesInAsOldAsItIs) {
+  const MapParams params{.rule = Rule::dempster, .decay_s = 10};
+  Map into(params, make_serial_executor()), from(params, make_serial_executor());
+  const std::vector<Mass> wall{{0, 0.8f, 0.2f}};
+  const auto hears = [](Map& map, std::int64_t stamp_ns, Pose2 at) {
+    const SensorId id = map.add({});
+    const float range_m = 2;
+    const Reading reading{id, {&range_m, 1}};
+    map.integrate(Scan{stamp_ns, at, {&reading, 1}});
+  };
+  hears(from, 0, {0, 0, 0});
+  hears(into, 100'000'000'000, {50, 0, 0});  // ten times the map's tau later
+  const CellIndex c = from.cell_at(1, 0);
+  ASSERT_GT(from.mass(c).e, 0.5f);
+  merge(into, from.view());
+  EXPECT_NEAR(into.mass(c).e, from.mass(c).e * std::exp(-10.0), 1e-6);
+}
+
+TEST(Merge, ProtectedCellsAreNotForgottenAfterwards) {
+  const auto d = testing::drive(Model::li2014, 12, 4);
+  const MapParams params{.rule = Rule::pcr5, .decay_s = 20};
+  Map into = fused(*d, params, 0, 6), from = fused(*d, params, 6, 6);
+  const CellIndex guarded{20, 1}, other{20, 30};
+  into.protect({0, 0, 25, 25});
+  merge(into, from.view());
+  const Mass now = into.mass(guarded);
+  ASSERT_GT(now.e + now.o, 0.1f);
+  into.advance_to(100'000'000'000);
+  EXPECT_EQ(into.mass(guarded), now);
+  EXPECT_LT(into.mass(other).e + into.mass(other).o, 0.05f);
+}
+
+TEST(Merge, AMergeThatDoesNotFitLeavesTimeAsItWas) {
+  const MapParams params{.rule = Rule::dempster, .memory_cap_bytes = 1 << 20, .decay_s = 10};
+  Map into(params, make_serial_executor()), from({.rule = Rule::dempster, .decay_s = 10}, make_serial_executor());
+  const SensorId id = into.add({});
+  const float range_m = 2;
+  const Reading reading{id, {&range_m, 1}};
+  into.integrate(Scan{0, {}, {&reading, 1}});
+  const std::vector<Mass> wall{{0, 0.8f, 0.2f}};
+  for (std::int64_t i = 0; i < 100; ++i) from.write({64 * i, 6400, 1, 1}, wall, 1);
+  from.advance_to(100'000'000'000);
+  const std::uint64_t before = into.hash();
+  EXPECT_THROW(merge(into, from.view()), std::length_error);
+  EXPECT_EQ(into.hash(), before);
+}
+
 }  // namespace
 }  // namespace evigrid

@@ -70,7 +70,9 @@ struct Costmap {
 /// What a consumer that holds a picture of the map has to draw again.
 struct Changes {
   std::uint64_t version = 0;  ///< of the map now: what to ask with next time
-  bool cleared = false;       ///< the map was cleared since: nothing drawn before holds any more
+  /// Nothing drawn before holds any more: the map was cleared since, or too much was dropped to be listed. `rects` then
+  /// has all that is known.
+  bool cleared = false;
   /// One for each tile that changed: those that were dropped, then the others, the last changed first. They do not
   /// overlap. Outside them no cell changed.
   std::vector<CellRect> rects;
@@ -95,8 +97,9 @@ class Map {
   Report integrate(const Scan&);
   Report integrate(std::span<const Scan>);
 
-  /// Takes scans back that were integrated before: the cells get the bits they would have without them, whatever came
-  /// between. Rules whose cells are sums (dempster_log, murphy); throws std::logic_error for others. The planes of
+  /// Takes scans back that were integrated before: the cells get the bits they would have without them, whatever
+  /// readings came between. (Cells that were cleared, written or left by the window since hold nothing of them: there
+  /// it takes away what is not there.) Rules whose cells are sums (dempster_log, murphy); throws std::logic_error for others. The planes of
   /// conflict keep what was met on the way, and the last stamp stays.
   Report undo(const Scan&);
   Report undo(std::span<const Scan>);
@@ -110,6 +113,7 @@ class Map {
   [[nodiscard]] float conflict(CellIndex) const noexcept;       ///< running sum of k, 0 without the plane
   [[nodiscard]] float con(CellIndex) const noexcept;            ///< −Σ ln(1 − k), 0 without the plane
   [[nodiscard]] float last_conflict(CellIndex) const noexcept;  ///< k of the last update, 0 without the plane
+  /// Points beyond ±2^60 cells are answered by ±2^60, NaN by −2^60: no map has cells there.
   [[nodiscard]] CellIndex cell_at(double x_m, double y_m) const noexcept;
 
   /// Smallest box around all non-vacuous cells.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "evigrid/types.hpp"
+#include "grid/rect.hpp"
 #include "grid/tile_source.hpp"
 
 namespace evigrid {
@@ -22,6 +23,14 @@ struct TileRect {
 /// All tiles that a rectangle of cells meets; it is not empty.
 inline TileRect tiles_of(const CellRect& r) noexcept {
   return {tile_of(r.x, r.y), tile_of(r.x + r.width - 1, r.y + r.height - 1)};
+}
+/// Its cells, as far as callers may ask (grid/rect.hpp).
+inline CellRect cells_of(const TileRect& r) noexcept {
+  constexpr std::int64_t kSide = kernels::kTileSide;
+  const auto length = [](std::int64_t first, std::int64_t last) {
+    return std::min((last - first + 1) * kSide, 2 * kFarthestCell);
+  };
+  return {r.first.x * kSide, r.first.y * kSide, length(r.first.x, r.last.x), length(r.first.y, r.last.y)};
 }
 /// The part of a rectangle that lies in a tile, in cells 0 … 63 of it.
 inline CellRect part_in(const CellRect& r, TileIndex at) noexcept {

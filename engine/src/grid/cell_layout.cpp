@@ -61,7 +61,8 @@ std::vector<Plane> planes_of(const MapParams& p) {
   std::vector<Plane> out(row.plane, row.plane + row.count);
   if (p.keep_conflict) out.push_back({"conflict", 0, 0, kEndless});
   if (p.keep_con) out.push_back({"con", 0, 0, kEndless});
-  if (p.keep_last_conflict) out.push_back({"last_conflict", 0, 0, kSum});
+  if (p.keep_last_conflict)  // memberships may both be whole: e·ω + o·ψ is at most 2
+    out.push_back({"last_conflict", 0, 0, row.kernel == kFuzzy ? 2 * kSum : kSum});
   if (p.decay_s > 0) {
     out.push_back({"stamp_low", 0, 0, 0, true});
     out.push_back({"stamp_high", 0, 0, 0, true});

@@ -71,7 +71,9 @@ void ChangeLog::drop(std::span<Tile* const> tiles) {
   if (tiles.empty()) return;
   auto all = std::make_shared<std::vector<Dropped>>();
   if (losses_.dropped) *all = *losses_.dropped;
-  for (const Tile* t : tiles) all->push_back({t->index, next()});
+  for (const Tile* t : tiles) {
+    if (!t->fresh) all->push_back({t->index, next()});  // else it never changed, or is listed from before
+  }
   if (all->size() > kMostDropped) {
     const auto end = all->end() - kMostDropped;
     losses_.cleared = std::max(losses_.cleared, (end - 1)->version);
@@ -89,6 +91,7 @@ void ChangeLog::clear() noexcept {
 
 Changes ChangeLog::since(std::uint64_t version) const {
   Changes out = begin_changes(losses_, version);
+  version = listed_since(out, version);
   for (const Tile* t = newest_; t != nullptr && t->buffer->marks.last > version; t = t->older)
     out.rects.push_back(changed_box(t->index, t->buffer->marks, version));
   return out;

@@ -42,6 +42,8 @@ struct Losses {
 };
 /// The part of Changes that no tile holds.
 Changes begin_changes(const Losses&, std::uint64_t since);
+/// The tiles to be listed are those that changed after this version: all of them, where what was drawn is void.
+inline std::uint64_t listed_since(const Changes& c, std::uint64_t since) noexcept { return c.cleared ? 0 : since; }
 
 class ChangeLog {
  public:

@@ -26,7 +26,8 @@ CostArgs costs(const Costmap& c) { return args_of(c, 255, 254, 252); }
 
 /// Of one cell. Selections: with -fno-trapping-math (engine/CMakeLists.txt) a loop over a micro-tile becomes vectors.
 int cost(const CostArgs& a, float e, float o, float u, float c) noexcept {
-  const float betp = (o + 0.5f * u) / (c > 0 ? (e + o) + u : 1.0f);
+  const float rest = (e + o) + u;  // a cell may hold nothing but c: half of it is on either side then
+  const float betp = c > 0 ? (rest > 0 ? (o + 0.5f * u) / rest : 0.5f) : o + 0.5f * u;
   const float between = (betp - a.free_below) * a.slope + 1.5f;  // 1 + the nearest whole number, once it is cut
   const float cost = betp > a.lethal_above ? a.lethal : betp < a.free_below ? 0.0f : between;
   return static_cast<int>(u > a.max_unknown ? a.none : cost);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grid/fill_rows.hpp"
+#include "grid/rect.hpp"
 
 namespace evigrid {
 namespace {
@@ -69,7 +70,11 @@ std::uint64_t two(float low, float high) noexcept {
 }  // namespace
 
 CellIndex cell_of(double x_m, double y_m, double cell_m) noexcept {
-  return {static_cast<std::int64_t>(std::floor(x_m / cell_m)), static_cast<std::int64_t>(std::floor(y_m / cell_m))};
+  constexpr auto kMost = static_cast<double>(kFarthestCell);
+  const auto index = [&](double v) {  // fmax: NaN gives the other
+    return static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(v / cell_m, -kMost), kMost)));
+  };
+  return {index(x_m), index(y_m)};
 }
 
 CellState read_cell(const TileSource& store, CellIndex c) noexcept {

@@ -14,10 +14,15 @@ namespace evigrid {
 /// No map reaches as far: poses beyond 2^50 cells are refused.
 inline constexpr std::int64_t kFarthestCell = std::int64_t{1} << 60;
 
-/// Throws std::invalid_argument, its text beginning with `what`, for corners beyond ±2^60 and sides beyond 2^61 cells.
-inline void require_near(const char* what, const CellRect& r) {
+/// Corners within ±2^60 and sides of at most 2^61 cells.
+inline bool is_near(const CellRect& r) noexcept {
   const auto far = [](std::int64_t v) { return v < -kFarthestCell || v > kFarthestCell; };
-  if (far(r.x) || far(r.y) || r.width > 2 * kFarthestCell || r.height > 2 * kFarthestCell) {
+  return !far(r.x) && !far(r.y) && r.width <= 2 * kFarthestCell && r.height <= 2 * kFarthestCell;
+}
+
+/// Throws std::invalid_argument, its text beginning with `what`, for others.
+inline void require_near(const char* what, const CellRect& r) {
+  if (!is_near(r)) {
     throw std::invalid_argument(std::string(what) + ": the rectangle reaches beyond 2^60 cells");
   }
 }

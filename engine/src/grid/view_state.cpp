@@ -36,6 +36,7 @@ std::vector<TileRef> ViewState::in_order() const {
 
 Changes ViewState::changes(std::uint64_t since) const {
   Changes out = begin_changes(facts_.losses, since);
+  since = listed_since(out, since);
   struct Changed {
     TileIndex at;
     const TileMarks* marks;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evigrid/map.hpp"
+#include "grid/admission.hpp"
 #include "grid/tile_catalog.hpp"
 
 namespace evigrid {
@@ -15,6 +16,7 @@ class ViewState final : public TileSource {
     MapParams params;
     std::shared_ptr<const std::vector<Sensor>> sensors;
     Losses losses;
+    Admission admission;  // for a file of it
   };
   ViewState(const TileStore& store, std::shared_ptr<const Catalog>, Facts);
   ~ViewState() override;

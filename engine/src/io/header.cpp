@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "evigrid/revision.hpp"
+#include "grid/rect.hpp"
 
 namespace evigrid::io {
 namespace {
@@ -79,8 +80,8 @@ void each_field(S& s, F&& f) {
   f("beam.occupied_half_width_m", s.beam.occupied_half_width_m);
 }
 
-/// What is neither a parameter nor a sensor, but for last_stamp_ns and planes, which need not be there, and map_hash,
-/// which is hexadecimal as in every report.
+/// What is neither a parameter nor a sensor, but for last_stamp_ns, window, protected areas and planes, which need not
+/// be there, and map_hash, which is hexadecimal as in every report.
 template <class I, class F>
 void each_fact(I& i, F&& f) {
   f("maths_version", i.maths_version);
@@ -144,6 +145,22 @@ bool read_revision(std::string_view list, std::shared_ptr<const RevisionNetwork>
   return true;
 }
 
+void write(std::string& out, std::string_view key, const CellRect& r) {
+  out.append(key).push_back('=');
+  for (const std::int64_t n : {r.x, r.y, r.width, r.height}) out.append(std::to_string(n)).push_back(',');
+  out.back() = '\n';
+}
+
+/// Four numbers; a rectangle that a map may be asked with, and not empty.
+bool read(std::string_view list, CellRect& r) {
+  for (std::int64_t* const n : {&r.x, &r.y, &r.width, &r.height}) {
+    const std::size_t comma = list.find(',');
+    if ((comma == std::string_view::npos) != (n == &r.height) || !read(list.substr(0, comma), *n)) return false;
+    list.remove_prefix(comma == std::string_view::npos ? list.size() : comma + 1);
+  }
+  return !r.empty() && is_near(r);
+}
+
 std::vector<std::string> split(std::string_view list) {
   std::vector<std::string> out;
   while (!list.empty()) {
@@ -165,6 +182,8 @@ std::string header_text(const MapFileInfo& info) {
   for (int bits = 60; bits >= 0; bits -= 4) out.push_back(kDigits[(info.hash >> bits) & 15]);
   out.push_back('\n');
   if (info.last_stamp_ns) line("last_stamp_ns", *info.last_stamp_ns);
+  if (info.window) write(out, "window", *info.window);
+  for (const CellRect& area : info.protected_areas) write(out, "protected", area);
   out += "planes=";
   for (std::size_t i = 0; i < info.planes.size(); ++i) out += (i > 0 ? "," : "") + info.planes[i];
   out += '\n';
@@ -211,6 +230,10 @@ MapFileInfo parse_header(std::string_view text) {
           std::from_chars(value.data(), value.data() + value.size(), info.hash, 16).ptr == value.data() + value.size();
     } else if (key == "last_stamp_ns") {
       match(key, info.last_stamp_ns.emplace());
+    } else if (key == "window") {
+      match(key, info.window.emplace());
+    } else if (key == "protected") {
+      match(key, info.protected_areas.emplace_back());
     } else {
       each_fact(info, match);
       each_param(info.params, match);

@@ -182,6 +182,9 @@ Map read_map(Source& in, const LoadOptions& options) {
     for (const Sensor& sensor : file.info.sensors) map.add(sensor);
     read_tiles(in, entries, map);
     if (options.region) io::clear_around(map, entries, *options.region);
+    Admission& admission = MapAccess::admission(map);  // as it was: protected cells are in the file as they were frozen
+    if (file.info.window) admission.window = tiles_of(*file.info.window);
+    admission.guarded = file.info.protected_areas;
     if (file.info.last_stamp_ns) MapAccess::last_stamp_ns(map) = *file.info.last_stamp_ns;
     // The definition of the hash may change with the maths; within one version it proves the whole way.
     if (!options.region && file.info.maths_version == kMathsVersion && map.hash() != file.info.hash)

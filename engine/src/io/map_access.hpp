@@ -21,6 +21,8 @@ struct MapAccess {
   static TileStore& store(Map&) noexcept;
   static ChangeLog& changes(Map&) noexcept;
   static Admission& admission(Map&) noexcept;
+  static const Admission& admission(const Map&) noexcept;
+  static const Admission& admission(const MapView&) noexcept;
   static std::int64_t& last_stamp_ns(Map&) noexcept;  ///< the smallest number before the first scan
   static std::int64_t last_stamp_ns(const Map&) noexcept;
   static std::int64_t last_stamp_ns(const MapView&) noexcept;

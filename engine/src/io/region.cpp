@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "grid/tile_source.hpp"
+#include "io/map_access.hpp"
+#include "life/edit.hpp"
 
 namespace evigrid::io {
 namespace {
@@ -38,14 +40,17 @@ void keep_region(std::vector<Entry>& entries, const CellRect& region) {
 
 void clear_around(Map& map, std::span<const Entry> entries, const CellRect& region) {
   if (region.empty()) return;
+  // Not Map::clear: what it accepts ends at 2^60 cells, the tiles of a file a tile farther.
+  const Grid grid{map.params(), MapAccess::store(map), MapAccess::changes(map)};
+  const auto clear = [&](const CellRect& r) { forget(grid, r); };
   const Ends rx = ends(region.x, region.width), ry = ends(region.y, region.height);
   for (const Entry& e : entries) {
     const Ends x = within(rx, e.x), y = within(ry, e.y);
     const std::int64_t left = e.x * kSide, bottom = e.y * kSide;
-    map.clear({left, bottom, kSide, y.first - bottom});
-    map.clear({left, y.last, kSide, bottom + kSide - y.last});
-    map.clear({left, y.first, x.first - left, y.last - y.first});
-    map.clear({x.last, y.first, left + kSide - x.last, y.last - y.first});
+    clear({left, bottom, kSide, y.first - bottom});
+    clear({left, y.last, kSide, bottom + kSide - y.last});
+    clear({left, y.first, x.first - left, y.last - y.first});
+    clear({x.last, y.first, left + kSide - x.last, y.last - y.first});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <functional>
@@ -56,6 +57,9 @@ std::string header_of(const MapOrView& map) {
   for (const Plane& plane : planes_of(info.params)) info.planes.emplace_back(plane.name);
   const std::int64_t stamp = MapAccess::last_stamp_ns(map);
   if (stamp != std::numeric_limits<std::int64_t>::min()) info.last_stamp_ns = stamp;
+  const Admission& admission = MapAccess::admission(map);
+  if (admission.window) info.window = cells_of(*admission.window);
+  info.protected_areas = admission.guarded;
   info.hash = map.hash();
   return io::header_text(info);
 }
@@ -105,14 +109,18 @@ void write_map(const MapOrView& map, Executor& executor, std::string_view name, 
   sink(tail.get());
 }
 
-/// A file under a temporary name that becomes the real one in commit(), or goes away.
+/// A file under a temporary name that becomes the real one in commit(), or goes away. No two have one name, however
+/// many threads save to one path.
 class NewFile {
  public:
   explicit NewFile(const std::filesystem::path& target) : target_(target), temporary_(target) {
+    static std::atomic<unsigned> last{0};
     std::string name(1, '.');
-    name.append(target.filename().string()).append(".tmp-").append(std::to_string(::getpid()));
-    temporary_.replace_filename(name);
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    name.append(target.filename().string()).append(".tmp-").append(std::to_string(::getpid())).push_back('-');
+    do {  // one may be there of a process that was killed
+      temporary_.replace_filename(name + std::to_string(++last));
+      descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ < 0) fail();
   }
   ~NewFile() {
@@ -160,6 +168,7 @@ void save_to(const MapOrView& map, Executor& executor, std::ostream& out) {
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (!out) throw MapFileError("map", "the stream cannot be written");
   });
+  if (!out.flush()) throw MapFileError("map", "the stream cannot be written");
 }
 
 std::shared_ptr<Executor> or_serial(Executor* executor) {

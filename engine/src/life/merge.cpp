@@ -57,13 +57,26 @@ class Placement {
   CellIndex shift_;
 };
 
+/// A map read at another time than its own.
+class AsOf final : public TileSource {
+ public:
+  AsOf(const TileSource& map, std::int64_t at_ns) : TileSource(map.shared_layout()), map_(map) { now_ns = at_ns; }
+  [[nodiscard]] const float* cells_of(TileIndex at) const noexcept override { return map_.cells_of(at); }
+  [[nodiscard]] std::size_t size() const noexcept override { return map_.size(); }
+  [[nodiscard]] std::vector<TileRef> in_order() const override { return map_.in_order(); }
+
+ private:
+  const TileSource& map_;
+};
+
 /// One tile of `into` and what it receives.
 class TileMerge {
  public:
-  TileMerge(const MapParams& params, const TileSource& into, const TileSource& from, Rule from_rule,
-            const Placement& place, double reliability)
+  TileMerge(const MapParams& params, const TileSource& into, const std::vector<CellRect>& guarded,
+            const TileSource& from, Rule from_rule, const Placement& place, double reliability)
       : params_(params),
         into_(into),
+        guarded_(guarded),
         from_(from),
         place_(place),
         reliability_(reliability),
@@ -109,11 +122,18 @@ class TileMerge {
   [[nodiscard]] Mass present(const Tile& tile, int i) const noexcept {
     return read_cell(into_, {tile.index.x * kSide + i % kSide, tile.index.y * kSide + i / kSide}).mass;
   }
+  /// Protected cells are not forgotten, whatever comes to them.
+  [[nodiscard]] bool is_guarded(const Tile& tile, int i) const noexcept {
+    const std::int64_t x = tile.index.x * kSide + i % kSide, y = tile.index.y * kSide + i / kSide;
+    return std::any_of(guarded_.begin(), guarded_.end(), [&](const CellRect& r) {
+      return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height;
+    });
+  }
   /// A cell that was joined is as of now, and is forgotten as fast as before, or as fast as where it came from.
   void renew(const Tile& tile, int i, float* cell) const noexcept {
     if (into_.layout().age < 0) return;
     CellAge age = age_of(into_.layout(), cell);
-    if (age.tau_s == 0 && from_.layout().age >= 0) {
+    if (age.tau_s == 0 && from_.layout().age >= 0 && !is_guarded(tile, i)) {
       const CellIndex at = cell_of_tile(tile.index, i);
       age.tau_s =
           age_of(from_.layout(), from_.cells_of(tile_of(at.x, at.y)) +
@@ -185,7 +205,9 @@ class TileMerge {
   }
 
   const MapParams& params_;
-  const TileSource &into_, &from_;
+  const TileSource& into_;
+  const std::vector<CellRect>& guarded_;
+  const TileSource& from_;
   const Placement& place_;
   double reliability_;
   bool same_sums_;
@@ -214,11 +236,12 @@ MergeReport merge(Map& into, const MapView& from, const MergeOptions& options) {
   TileStore& store = MapAccess::store(into);
   ChangeLog& changes = MapAccess::changes(into);
   const Admission& admission = MapAccess::admission(into);
-  const TileSource& source = MapAccess::source(from);
+  const std::int64_t now_ns = std::max(store.now_ns, MapAccess::source(from).now_ns);
+  const AsOf source(MapAccess::source(from), now_ns);
   const Placement place(options.T_into_from, into.params().cell_m);
-  const TileMerge merging(into.params(), store, source, from.params().rule, place, options.reliability);
+  const TileMerge merging(into.params(), store, admission.guarded, source, from.params().rule, place,
+                          options.reliability);
 
-  store.now_ns = std::max(store.now_ns, source.now_ns);
   std::set<TileIndex> wanted;
   for (const TileRef& t : source.in_order()) {
     const TileRect r = tiles_of(place.around(t.at));
@@ -250,6 +273,7 @@ MergeReport merge(Map& into, const MapView& from, const MergeOptions& options) {
   }
   work.reports.resize(work.tiles.size());
   work.reached.resize(work.tiles.size());
+  store.now_ns = now_ns;  // from here on nothing throws but for want of memory
   MapAccess::executor(into).run(
       static_cast<std::int64_t>(work.tiles.size()),
       [](void* context, std::int64_t index, int) {
