@@ -25,14 +25,9 @@ struct Args {
   JournalFile journal;
 };
 
-/// A map needs poses: a log without any is mapped only where the user says that the robot stood still.
+/// A log without poses is mapped only where the user says that the robot stood still.
 void require_poses(const Log& log, const Args& args) {
-  if (log.poses == Poses::one_dimension) {
-    throw InputError(
-        fmt::format("{}: format {} is a drive along a line with true ranges, not a map's log: see "
-                    "`evigrid calibrate`",
-                    args.logs.front(), log.format));
-  }
+  require_plane(log, args.logs.front());
   if (log.poses == Poses::none && args.scans.empty()) {
     throw InputError(
         fmt::format("{}: format {} has no poses: choose what to map with --scans N or A:B ({} scans); the "

@@ -26,7 +26,16 @@ std::string listed(const std::vector<ParamError>& errors) {
   return out;
 }
 
-/// A call takes as many scans as fit under the cap at once, where tiles can go elsewhere between two of them.
+}  // namespace
+
+void require_plane(const Log& log, const std::string& named) {
+  if (log.poses != Poses::one_dimension) return;
+  throw InputError(
+      fmt::format("{}: format {} is a drive along a line with true ranges, not a map's log: see "
+                  "`evigrid calibrate`",
+                  named, log.format));
+}
+
 Report integrate_what_fits(Map& map, std::span<const Scan> scans, bool pages) {
   try {
     return map.integrate(scans);
@@ -37,8 +46,6 @@ Report integrate_what_fits(Map& map, std::span<const Scan> scans, bool pages) {
   report += integrate_what_fits(map, scans.subspan(scans.size() / 2), pages);
   return report;
 }
-
-}  // namespace
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -90,7 +97,7 @@ Sensor configured(const LogSensor& from_log, const MappingOptions& o, bool mixed
   if (o.max_range_m) s.max_range_m = *o.max_range_m;
   if (fan) {  // beyond what the scanner can tell from "no return" there is nothing to clear
     s.max_range_m = std::min(s.max_range_m, s.no_return_m);
-    s.clear_no_return = o.clear_no_return;
+    s.clear_no_return |= o.clear_no_return;
   } else if (o.clear_no_return && !mixed) {
     throw InputError(
         "--clear-no-return: is for lasers; a sonar that hears no echo does not show that its cone is empty");

@@ -45,6 +45,11 @@ struct JournalFile {
   bool resume = false;  ///< goes on with the one that is there
 };
 /// Throws InputError also when a journal to go on with is of other sensors, parameters or scans than the log.
+/// Throws InputError for a log that is no drive in the plane.
+void require_plane(const Log& log, const std::string& named);
+/// As many scans at once as fit under the map's cap, where tiles can go elsewhere between two of them. Throws
+/// std::length_error when one does not.
+Report integrate_what_fits(Map& map, std::span<const Scan> scans, bool pages);
 Fused fuse(const Log& log, const MappingOptions& options, Plan plan, const JournalFile& journal = {});
 
 /// report.json, masses.npy, map.pgm, map.yaml, map.png, map.evigrid and what the options add: staged in `out` and

@@ -105,5 +105,18 @@ TEST(CastLog, WithoutSensorsItSaysHowToWriteThem) {
   refused("# sensor 0 beams=1e9", "beams: is no number of beams");
 }
 
+TEST(CastLog, ASensorThatClearsWithoutReturnDoes) {
+  const TempDir dir;
+  const std::string rows = std::string(kHead) + "0,0,1,2,0,0,inf,0\n0,0,1,2,0,0,inf,1\n0,0,1,2,0,0,3,2\n";
+  const auto cells = [&](const std::string& key) {
+    const std::string log = dir.write(
+        "log.csv", "# sensor 0 kind=laser model=beam beams=3 beam_step_rad=0.02 max_range_m=8" + key + "\n" + rows);
+    const Ran ran = evigrid({"map", log, "-o", dir.at("out"), "--json", "-"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return nlohmann::json::parse(ran.out)["cells_updated"].get<int>();
+  };
+  EXPECT_GT(cells(" clear_no_return=1"), 2 * cells(""));
+}
+
 }  // namespace
 }  // namespace evigrid::driver

@@ -124,5 +124,36 @@ TEST(Run, AWorldThatCannotBeScoredStillGivesItsMap) {
   EXPECT_FALSE(std::filesystem::exists(dir.at("out/truth.png")));
 }
 
+TEST(Compare, RulesThatCannotForgetAreLeftOut) {
+  const TempDir dir;
+  const std::string scene = dir.write("room.toml", kRoom);
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{"--decay", "100"}, {"--dependence", "cautious"}}) {
+    std::vector<std::string> line{"compare",           scene,      "-o",        dir.at("out"), "--rules",
+                                  "dempster,cautious", "--models", "hughes1992"};
+    line.insert(line.end(), how.begin(), how.end());
+    const Ran ran = evigrid(line);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json rows = report_of(dir, "out")["rows"];
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0]["rule"], "dempster");
+    line[5] = "cautious";
+    const Ran none = evigrid(line);
+    EXPECT_EQ(none.code, 2);
+    EXPECT_TRUE(contains(none.err, "cautious")) << none.err;
+  }
+}
+
+TEST(Compare, ALogWithoutPosesIsRefusedAsMapDoes) {
+  const TempDir dir;
+  std::string row;
+  for (int i = 0; i < 24; ++i) row += "1.5,";
+  const std::string log = dir.write("sensor_readings_24.data", row + "Move-Forward\n" + row + "Move-Forward\n");
+  const Ran ran = evigrid({"compare", log, "-o", dir.at("out")});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_TRUE(contains(ran.err, "has no poses")) << ran.err;
+  EXPECT_FALSE(std::filesystem::exists(dir.at("out")));
+}
+
 }  // namespace
 }  // namespace evigrid::driver

@@ -245,5 +245,28 @@ TEST(Export, BadInputIsNamedAndLeavesNothing) {
   refused({"export", out, "-o", dir.at("x.csv"), "--region", "1,1,0,0"}, "--region");
 }
 
+TEST(Export, WhatWasNeverSeenIsUnknownWhateverTheThresholds) {
+  const TempDir dir;
+  const std::string out = mapped_drive(dir);
+  const Map map = loaded(out);
+  const CellRect b = map.bounds();
+  for (const auto& [free, occupied] : {std::pair{"0.6", "0.7"}, {"0.1", "0.4"}}) {
+    const Ran ran = evigrid({"export", out, "-o", dir.at("t.yaml"), "--free", free, "--occupied", occupied});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const std::string pgm = slurp(dir.at("t.pgm"));
+    const std::size_t first = pgm.size() - static_cast<std::size_t>(b.width * b.height);
+    int unknown = 0;
+    for (std::int64_t y = 0; y < b.height; ++y) {
+      for (std::int64_t x = 0; x < b.width; ++x) {
+        if (map.mass({b.x + x, b.y + y}) != Mass{}) continue;
+        ++unknown;
+        ASSERT_EQ(static_cast<unsigned char>(pgm[first + static_cast<std::size_t>((b.height - 1 - y) * b.width + x)]),
+                  205);
+      }
+    }
+    EXPECT_GT(unknown, 100);
+  }
+}
+
 }  // namespace
 }  // namespace evigrid::driver

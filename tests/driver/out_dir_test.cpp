@@ -143,5 +143,47 @@ TEST(OutDir, ADeviceBesideTheFolderIsWrittenToAndStays) {
   EXPECT_EQ(slurp(dir.at("out/a")), "a");
 }
 
+TEST(OutDir, AFailingCommitKeepsWhatWasThereBefore) {
+  const TempDir dir;
+  dir.write("a/one", "old");
+  {
+    OutDir out(dir.at("a"));
+    out.write("one", "1");
+    out.write("new", "1");
+    out.write("two", "2");
+    dir.write("a/two/inside", "x");
+    EXPECT_THROW(out.commit(), InputError);
+  }
+  EXPECT_EQ(dir.names(), (Names{"a", "a/one", "a/two", "a/two/inside"}));
+}
+
+TEST(OutDir, AFileWrittenTwiceIsTheLastOne) {
+  const TempDir dir;
+  dir.write("a/report.json", "old");
+  {
+    OutDir out(dir.at("a"));
+    out.write("report.json", "1");
+    out.write("map", "m");
+    out.write_outside(dir.at("a/report.json"), "2");
+    out.commit();
+  }
+  EXPECT_EQ(slurp(dir.at("a/report.json")), "2");
+  EXPECT_EQ(dir.names(), (Names{"a", "a/map", "a/report.json"}));
+}
+
+TEST(OutDir, AWriterThatComplainsOfItsStreamIsTheDisk) {
+  const TempDir dir;
+  OutDir out(dir.at("a"));
+  try {
+    out.write_by("map", [](std::ostream& to) {
+      to.setstate(std::ios::badbit);
+      throw std::runtime_error("the stream cannot be written");
+    });
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a/map"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace evigrid::driver

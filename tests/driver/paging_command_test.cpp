@@ -75,5 +75,19 @@ TEST(PageDir, AFleetOnALittleMemory) {
   EXPECT_EQ(a["map_hash"], b["map_hash"]);
 }
 
+TEST(PageDir, ACycleThatDoesNotFitAtOnceIsFusedInParts) {
+  const TempDir dir;
+  const auto cycle = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"cycle", "--robots", "12", "--grid", "1024", "--cycles",
+                                 "4",     "--warmup", "0",  "--json", "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    return evigrid(all);
+  };
+  const Ran roomy = cycle({}), paged = cycle({"--memory-mb", "3", "--page-dir", dir.path().string()});
+  ASSERT_EQ(roomy.code, 0) << roomy.err;
+  ASSERT_EQ(paged.code, 0) << paged.err;
+  EXPECT_EQ(Json::parse(roomy.out)["map_hash"], Json::parse(paged.out)["map_hash"]);
+}
+
 }  // namespace
 }  // namespace evigrid::driver

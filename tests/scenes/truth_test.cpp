@@ -239,5 +239,29 @@ TEST(Truth, ExtentIsOfAllSurfaces) {
   EXPECT_EQ(e.high.y_m, 5);
 }
 
+TEST(Truth, ThePlacesOffSurfacesAreThoseThatCanBeFilledFrom) {
+  World world;
+  world.polygons.push_back({{{0, 0}, {4, 0}, {4, 3}, {0, 3}}, {}});
+  world.boxes.push_back({{1, 1}, 0.4, 0.4, 0.3, {}});
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<> x(-0.2, 4.2), y(-0.2, 3.2);
+  int on = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Point p{x(random), y(random)};
+    const bool off = first_off_surfaces(world, 0.3, std::span(&p, 1)).has_value();
+    if (off) {
+      EXPECT_NO_THROW((void)rasterise(world, 0.3, p));
+    } else {
+      EXPECT_THROW((void)rasterise(world, 0.3, p), std::invalid_argument);
+    }
+    on += !off;
+  }
+  EXPECT_GT(on, 30);
+  const Point points[]{{0, 1}, {4, 2}, {2, 2}, {3, 2}};
+  const auto first = first_off_surfaces(world, 0.3, points);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->x_m, 2);
+}
+
 }  // namespace
 }  // namespace evigrid::scenes

@@ -44,6 +44,12 @@ std::vector<Subject> read_subjects(const CompareOptions& o) {
     if (!o.robots.empty()) throw InputError("--robots: a recorded log has its own robot");
     if (!o.world.world.empty()) throw InputError("--world: cannot be given beside a log");
     out.push_back({"", read_log(o.inputs, "auto", o.bag), std::nullopt});
+    const Log& log = out.back().log;
+    require_plane(log, o.inputs.front());
+    if (log.poses == Poses::none) {
+      throw InputError(fmt::format("{}: format {} has no poses; `evigrid map --scans` maps some of its scans",
+                                   o.inputs.front(), log.format));
+    }
     return out;
   }
   if (o.inputs.size() > 1) throw InputError("one scene at a time");
@@ -102,6 +108,20 @@ Result fuse_one(const Subject& subject, const MappingOptions& options, const Pla
   return out;
 }
 
+/// Forgetting and readings that are no distinct evidence ask for cells that hold masses: why a rule's do not serve, or
+/// empty.
+std::string why_not_with(const MappingOptions& o, const Log& log) {
+  MapParams params{.rule = parse_map_rule(o.rule)};
+  if (o.decay_s) params.decay_s = *o.decay_s;
+  try {
+    Map map(params, make_serial_executor());
+    for (const LogSensor& s : log.sensors) map.add(configured(s, o, holds_both_kinds(log)));
+  } catch (const std::invalid_argument& bad) {
+    return bad.what();
+  }
+  return {};
+}
+
 CellRect around(const CellRect& a, const CellRect& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
@@ -143,6 +163,7 @@ void compare(const CompareOptions& given) {
   require_used(parse_settings(o.mapping.params), models);
   o.mapping.params_of_other_models = true;
   OutDir out(o.mapping.out_dir);
+  if (!o.mapping.json.empty() && o.mapping.json != "-") require_writable(o.mapping.json);
   const std::vector<Subject> subjects = read_subjects(o);
 
   std::vector<Result> results;
@@ -171,6 +192,10 @@ void compare(const CompareOptions& given) {
         }
         options.rule = rule;
         options.model = model;
+        if (const auto why = why_not_with(options, subject.log); !why.empty()) {
+          not_together = why;
+          continue;
+        }
         const Plan plan = make_plan(options);
         if (subject.scene && !truth && no_truth.empty()) {
           SceneTruth known = scene_truth(*subject.scene, plan.params.cell_m);

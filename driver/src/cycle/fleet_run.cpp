@@ -26,6 +26,7 @@ class Work : public CycleWork {
         executor_(*trial.executor),
         parallel_(parallel_on(executor_)),
         fleet_(*world.floor, *world.caster, plan.robot, spec_of(trial.options), parallel_),
+        pages_(!trial.options.page_dir.empty()),
         views_(trial.map) {
     trial_.ranges_per_scan = fleet_.ranges_per_scan();
     if (!log.empty()) log_ = std::make_unique<ScanLogWriter>(log, trial_.map, trial_.ranges_per_scan);
@@ -60,7 +61,7 @@ class Work : public CycleWork {
 
   Report fuse(std::span<const FleetScan> scans) override {
     try {
-      return trial_.map.integrate(views_.of(scans));
+      return integrate_what_fits(trial_.map, views_.of(scans), pages_);
     } catch (const std::length_error& full) {
       throw InputError(
           fmt::format("--memory-mb: {}; fewer --robots or --cycles need less, --page-dir takes more", full.what()));
@@ -89,6 +90,7 @@ class Work : public CycleWork {
   Executor& executor_;
   scenes::Parallel parallel_;
   scenes::Fleet fleet_;
+  bool pages_;
   ScanViews views_;
   std::unique_ptr<ScanLogWriter> log_;
   std::uint64_t first_ = 0;

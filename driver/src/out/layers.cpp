@@ -33,6 +33,7 @@ std::uint8_t pixel(const Layers& l, std::size_t i, PgmMode mode, const PgmThresh
   const double betp = value_of(Layer::betp, l.mass(i));
   switch (mode) {
     case PgmMode::trinary:
+      if (l.u()[i] == 1) return 205;  // never seen, whatever the thresholds make of BetP 1/2
       return betp > limits.occupied ? 0 : betp < limits.free ? 254 : 205;
     case PgmMode::scale:
       return static_cast<std::uint8_t>(std::lround(255 * (1 - betp)));

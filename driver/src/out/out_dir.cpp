@@ -96,7 +96,7 @@ OutDir::OutDir(const std::string& path) {
 
 OutDir::~OutDir() {
   std::error_code ignored;
-  for (const auto& [temporary, target] : staged_) fs::remove(temporary, ignored);
+  for (const Staged& s : staged_) fs::remove(s.temporary, ignored);
   for (auto at = made_.rbegin(); at != made_.rend(); ++at) fs::remove(*at, ignored);  // only when empty
 }
 
@@ -107,7 +107,9 @@ void OutDir::stage(const fs::path& named, std::span<const std::byte> head, std::
   if (is_special(target)) fail(named, "it is a device or a pipe");
   const fs::path temporary = temporary_beside(target);
   write_all(temporary, target, head, body);
-  staged_.emplace_back(temporary, target);
+  const auto same = [&](const Staged& s) { return s.target == target; };  // --json may name a file of the folder
+  std::erase_if(staged_, same);
+  staged_.push_back({temporary, target, fs::exists(target, error)});
 }
 
 void OutDir::write(const std::string& name, std::string_view bytes) { stage(path_ / name, bytes_of(bytes), {}); }
@@ -118,16 +120,20 @@ void OutDir::write(const std::string& name, std::span<const std::byte> head, std
 
 void OutDir::write_by(const std::string& name, const std::function<void(std::ostream&)>& writer) {
   stage(path_ / name, {}, {});
-  const auto& [temporary, target] = staged_.back();
-  std::ofstream out(temporary, std::ios::binary);
-  if (out) writer(out);
+  const Staged s = staged_.back();
+  std::ofstream out(s.temporary, std::ios::binary);
+  try {
+    if (out) writer(out);
+  } catch (const std::exception&) {
+    if (out) throw;  // else the writer complains of the stream, which has no name
+  }
   out.close();
-  if (!out) fail(target, "the disk may be full");
+  if (!out) fail(s.target, "the disk may be full");
 }
 
 void OutDir::write_at(const std::string& name, const std::function<void(const fs::path&)>& writer) {
   stage(path_ / name, {}, {});
-  writer(staged_.back().first);
+  writer(staged_.back().temporary);
 }
 
 void OutDir::write_outside(const std::string& path, std::string_view bytes) {
@@ -142,11 +148,14 @@ void OutDir::write_outside(const std::string& path, std::string_view bytes) {
 void OutDir::commit() {
   std::size_t done = 0;
   std::error_code error;
-  for (; done < staged_.size() && !error; ++done) fs::rename(staged_[done].first, staged_[done].second, error);
-  if (error) {  // the last one failed: a part of the results is worse than none
-    const fs::path named = staged_[done - 1].second;
+  for (; done < staged_.size() && !error; ++done) fs::rename(staged_[done].temporary, staged_[done].target, error);
+  if (error) {  // the last one failed: a part of new results is worse than none
+    const fs::path named = staged_[done - 1].target;
     std::error_code ignored;
-    for (std::size_t i = 0; i + 1 < done; ++i) fs::remove(staged_[i].second, ignored);
+    for (std::size_t i = 0; i + 1 < done; ++i) {
+      if (!staged_[i].replaces) fs::remove(staged_[i].target, ignored);
+    }
+    staged_.erase(staged_.begin(), staged_.begin() + static_cast<std::ptrdiff_t>(done - 1));
     fail(named, error.message());
   }
   staged_.clear();

@@ -34,7 +34,7 @@ class OutDir {
   /// Also takes a file outside the folder (--json FILE) into the same commit.
   void write_outside(const std::string& path, std::string_view bytes);
 
-  /// Renames everything into place. Throws InputError, with nothing left, when that fails.
+  /// Renames everything into place. Throws InputError when that fails, with nothing left that was not there before.
   void commit();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -42,9 +42,13 @@ class OutDir {
  private:
   void stage(const std::filesystem::path& named, std::span<const std::byte> head, std::span<const std::byte> body);
   std::filesystem::path path_;
-  std::vector<std::filesystem::path> made_;                                      // folders, outermost first
-  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> staged_;  // temporary, target
-  std::vector<std::pair<std::filesystem::path, std::string>> special_;           // devices and pipes, and what they get
+  struct Staged {
+    std::filesystem::path temporary, target;
+    bool replaces;  // a file of that name was there
+  };
+  std::vector<std::filesystem::path> made_;  // folders, outermost first
+  std::vector<Staged> staged_;
+  std::vector<std::pair<std::filesystem::path, std::string>> special_;  // devices and pipes, and what they get
 };
 
 /// One file, written beside and renamed; throws InputError. For commands whose only output is a file.

@@ -63,9 +63,10 @@ Rerendered rerender(const Layers& map, const Log& log, std::size_t most) {
       const LogReading& reading = log.readings[r];
       const Sensor& s = log.sensors[reading.sensor].sensor;
       const Pose2 at = compose(scan.T_map_robot, s.T_robot_sensor);
+      if (!(std::isfinite(at.x_m) && std::isfinite(at.y_m) && std::isfinite(at.yaw_rad))) continue;
       for (std::size_t b = 0; b < reading.count; ++b) {
         const double range_m = static_cast<double>(log.ranges_m[reading.first + b]);
-        if (!(range_m >= s.min_range_m && range_m <= s.max_range_m)) continue;
+        if (!(range_m >= s.min_range_m && range_m <= s.max_range_m && range_m < s.no_return_m)) continue;
         ++out.readings;
         const double predicted_m = s.model == Model::beam
                                        ? world.ray(at, s.first_beam_rad + static_cast<double>(b) * s.beam_step_rad, s)

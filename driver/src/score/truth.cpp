@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <vector>
 
 #include "evigrid/scenes/simulate.hpp"
 
@@ -20,18 +21,24 @@ SceneTruth scene_truth(const scenes::Scene& scene, double cell_m) {
   if (!((width + 3) * (height + 3) <= kMostCells)) {
     return {std::nullopt, fmt::format("the world has {:.0f} x {:.0f} cells, too many to be scored", width, height)};
   }
-  SceneTruth out;
-  for (const scenes::Pose& pose : scenes::drive(scene.trajectory)) {  // a coarse cell may hold the start and a wall
+  const std::vector<scenes::Pose> poses = scenes::drive(scene.trajectory);
+  if (poses.empty()) return {};
+  const auto from = [&](raycast::Point p) { return SceneTruth{scenes::rasterise(scene.world, cell_m, p), {}}; };
+  try {
+    return from({poses[0].x_m, poses[0].y_m});
+  } catch (const std::length_error& large) {
+    return {std::nullopt, large.what()};
+  } catch (const std::invalid_argument& in_wall) {  // a coarse cell may hold the start and a wall: from the next one
+    std::vector<raycast::Point> points;
+    points.reserve(poses.size());
+    for (const scenes::Pose& pose : poses) points.push_back({pose.x_m, pose.y_m});
     try {
-      out.grid = scenes::rasterise(scene.world, cell_m, {pose.x_m, pose.y_m});
-      return out;
-    } catch (const std::invalid_argument& in_wall) {
-      out.why_not = in_wall.what();
+      const auto free = scenes::first_off_surfaces(scene.world, cell_m, points);
+      return free ? from(*free) : SceneTruth{std::nullopt, in_wall.what()};
     } catch (const std::length_error& large) {
       return {std::nullopt, large.what()};
     }
   }
-  return out;
 }
 
 }  // namespace evigrid::driver

@@ -54,4 +54,14 @@ TruthGrid rasterise(const raycast::World& world, double cell_m, raycast::Point i
   return grid;
 }
 
+std::optional<raycast::Point> first_off_surfaces(const raycast::World& world, double cell_m,
+                                                 std::span<const raycast::Point> points) {
+  const TruthGrid grid = raster(take_apart(world), cell_m, points, kMostCells);
+  for (const raycast::Point& p : points) {
+    const std::int64_t at = (cell_of(p.y_m, cell_m) - grid.y) * grid.width + (cell_of(p.x_m, cell_m) - grid.x);
+    if (grid.cells[static_cast<std::size_t>(at)] != TruthCell::surface) return p;
+  }
+  return std::nullopt;
+}
+
 }  // namespace evigrid::scenes

@@ -2,6 +2,8 @@
 // The world as cells: what a perfect map would say. For scoring maps and for finding where a robot can drive.
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "evigrid/raycast/world.hpp"
@@ -33,6 +35,11 @@ struct TruthGrid {
 /// Throws std::length_error when the grid would exceed 2^31 cells, std::invalid_argument when a number of the world is
 /// not finite (naming the object) or `inside` lies in a surface cell.
 [[nodiscard]] TruthGrid rasterise(const raycast::World& world, double cell_m, raycast::Point inside);
+
+/// The first of some points whose cell holds no surface, the world rasterised once for all of them. Throws
+/// std::length_error as above.
+[[nodiscard]] std::optional<raycast::Point> first_off_surfaces(const raycast::World& world, double cell_m,
+                                                               std::span<const raycast::Point> points);
 
 /// Bounding box of all surfaces, the corners with the least and the greatest coordinates. Empty world: both (0, 0).
 struct Extent {
