@@ -63,8 +63,8 @@ bool looks_like_ring8(const FirstLine& line) {
 }
 
 /// Fields of the first record when it starts with a number, else 0.
-std::size_t numeric_columns(const std::string& path) {
-  LineReader lines(path);
+std::size_t numeric_columns(const Source& source) {
+  LineReader lines(source);
   std::string_view line;
   Tokens tokens;
   double ignored = 0;
@@ -77,20 +77,20 @@ std::size_t numeric_columns(const std::string& path) {
 }
 
 /// The two files of a ring from whatever the user named: the folder, one file, or both in any order.
-std::vector<Source> ring_files(const std::vector<std::string>& paths) {
-  if (paths.size() > 2) throw InputError("format ring8 takes a folder, one file or two files");
-  if (paths.size() == 2) {
+std::vector<Source> ring_files(std::span<const Source> named) {
+  if (named.size() > 2) throw InputError("format ring8 takes a folder, one file or two files");
+  if (named.size() == 2) {
     const bool swapped =
-        fs::path(paths[0]).filename() == kMeasurementsFile || numeric_columns(paths[0]) == kMeasurementFields;
-    return swapped ? std::vector<Source>{{paths[1]}, {paths[0]}} : std::vector<Source>{{paths[0]}, {paths[1]}};
+        fs::path(named[0].name).filename() == kMeasurementsFile || numeric_columns(named[0]) == kMeasurementFields;
+    return swapped ? std::vector<Source>{named[1], named[0]} : std::vector<Source>{named[0], named[1]};
   }
-  const fs::path given = paths.front();
+  const fs::path given = named.front().name;
   const fs::path folder = fs::is_directory(given) ? given : given.parent_path();
-  std::string poses = (folder / kPosesFile).string(), measurements = (folder / kMeasurementsFile).string();
+  Source poses{(folder / kPosesFile).string()}, measurements{(folder / kMeasurementsFile).string()};
   if (!fs::is_directory(given)) {
-    (numeric_columns(given.string()) == kPoseFields ? poses : measurements) = given.string();
+    (numeric_columns(named.front()) == kPoseFields ? poses : measurements) = named.front();
   }
-  return {{poses}, {measurements}};
+  return {poses, measurements};
 }
 
 bool ring_folder(const fs::path& folder) {
