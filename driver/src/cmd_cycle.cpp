@@ -208,7 +208,8 @@ void add_cycle(CLI::App& app) {
   add("--most-robots", o.most_robots, "where --find-max stops")->capture_default_str();
   add("--sweep", o.sweeps,
       "NAME=V,V,...: the same with one option varied: robots, sensors, grid, cell, threads or scans; several may be "
-      "given");
+      "given")
+      ->allow_extra_args(false);
   add("--policy", o.policy, "when a cycle would overrun: none, backlog or skip")->capture_default_str();
   add("--backlog", o.backlog, "scans that may wait (default: two cycles' scans)");
   add("--slice", o.slice, "scans fused between two looks at the clock, with a policy")->capture_default_str();

@@ -67,7 +67,8 @@ void add_map(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--scans", args->scans, "map these alone: N, or A:B up to but not including B; from 0");
   command->add_option("--sensors", args->sensors, "map these kinds or names of sensors alone, e.g. sonar")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   add_bag_options(*command, args->bag);
   add_mapping_options(*command, args->mapping);
   CLI::Option* journal =

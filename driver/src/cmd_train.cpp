@@ -126,7 +126,8 @@ void add_train(CLI::App& app) {
                    "the revision, a small JSON file, for --revision of `evigrid map`, run and model")
       ->required();
   command->add_option("--model", args->model, "sensor model whose masses are revised")->capture_default_str();
-  command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable");
+  command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable")
+      ->allow_extra_args(false);
   command->add_option("--aperture", args->aperture_deg, "full opening of the cones, degrees")->capture_default_str();
   command->add_option("--min-range", args->min_range_m, "m: nearer readings are left out")->capture_default_str();
   command->add_option("--max-range", args->max_range_m, "m: farther readings are left out")->capture_default_str();
