@@ -97,6 +97,7 @@ TEST_P(Damage, OddRangesReachTheEngineToBeCounted) {
   EXPECT_EQ(odd("nan"), (std::pair<std::size_t, std::uint64_t>{1, 0}));
   EXPECT_EQ(odd("inf"), (std::pair<std::size_t, std::uint64_t>{0, 0}));
   EXPECT_EQ(odd("-5"), (std::pair<std::size_t, std::uint64_t>{0, 0}));
+  EXPECT_EQ(odd("1e300"), (std::pair<std::size_t, std::uint64_t>{1, 1}));  // beyond what a float holds
   EXPECT_EQ(odd("9e9"), (std::pair<std::size_t, std::uint64_t>{1, 1}));
 }
 
