@@ -145,6 +145,7 @@ Log read_log(const std::vector<std::string>& paths, const std::string& name, con
   if (name == kBag || (name == "auto" && looks_like_bag(paths.front()))) return read_one_bag(paths, bag);
   const NamedSources named(paths);
   const Format& format = format_of(named, name);
+  refuse_bag_options(bag);
   return read(format, named);
 }
 
