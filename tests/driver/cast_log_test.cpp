@@ -9,6 +9,7 @@
 #include "error.hpp"
 #include "log/readers.hpp"
 #include "log/sensor_line.hpp"
+#include "log/summary.hpp"
 #include "program.hpp"
 
 namespace evigrid::driver {
@@ -91,6 +92,15 @@ TEST(CastLog, ScansAreStepsAndBeamsFollowOneAnother) {
 TEST(CastLog, WithoutSensorsItSaysHowToWriteThem) {
   const std::string row = "0,0,1,2,0.5,0,1,0\n";
   EXPECT_TRUE(contains(error_of(kHead + row), "evigrid cast --sensors")) << error_of(kHead + row);
+TEST(CastLog, TimesWhoseDifferenceNeedsMoreThan64BitsAreNone) {
+  const Log log = read_text("# sensor 0 kind=sonar\n" + std::string(kHead) +
+                            "0,-9223372036854775808,1,2,0.5,0,1,0\n1,9223372036854775807,1,2,0.5,0,1,0\n"
+                            "2,4499999999999999999,1,2,0.5,0,1,0\n3,-4499999999999999999,1,2,0.5,0,1,0\n");
+  EXPECT_EQ(log.scans.size(), 2U);
+  EXPECT_EQ(log.malformed.at("bad number"), 2U);
+  EXPECT_EQ(summarise(log)["time"]["span_s"], 9e9);
+}
+
   const auto refused = [&](const std::string& line, const std::string& why) {
     const std::string error = error_of("# a note\n" + line + "\n" + kHead + row);
     EXPECT_TRUE(contains(error, why)) << error;
