@@ -55,10 +55,13 @@ Json to_json(const std::vector<Calibration>& all, const Log& log, const Args& ar
       b.update(stats_json(bin.stats));
       one["bins"].push_back(b);
     }
-    one["suggested"] = {{"reliability", c.reliability},
-                        {"noise_sigma_m", c.noise.sigma_m},
-                        {"noise_ratio", c.noise.ratio},
-                        {"fitted_bins", c.noise.bins}};
+    one["suggested"] = nullptr;
+    if (c.reliability) {
+      one["suggested"] = {{"reliability", *c.reliability},
+                          {"noise_sigma_m", c.noise.sigma_m},
+                          {"noise_ratio", c.noise.ratio},
+                          {"fitted_bins", c.noise.bins}};
+    }
     out["sensors"].push_back(one);
   }
   out["records_malformed"] = log.malformed;
@@ -81,7 +84,11 @@ std::string table(const std::vector<Calibration>& all, const CalibrationLimits& 
     out += row("all", c.all);
     out += fmt::format("  off by more than {:g} m, missing echoes and error codes included: {:.1f} % of all samples\n",
                        limits.outlier_m, 100 * c.all.off_share());
-    out += fmt::format("  suggested: reliability = {:.3f}", c.reliability);
+    if (!c.reliability) {
+      out += "  not a single echo: nothing can be suggested\n\n";
+      continue;
+    }
+    out += fmt::format("  suggested: reliability = {:.3f}", *c.reliability);
     out += c.noise.bins == 0 ? std::string(", too few samples for the noise\n\n")
                              : fmt::format(", noise_sigma_m = {:.4f}, noise_ratio = {:.4f}  (of {} bins)\n\n",
                                            c.noise.sigma_m, c.noise.ratio, c.noise.bins);

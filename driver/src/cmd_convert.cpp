@@ -13,6 +13,7 @@
 #include "error.hpp"
 #include "evigrid/io.hpp"
 #include "export/export_options.hpp"
+#include "given_options.hpp"
 #include "options.hpp"
 #include "prior_map.hpp"
 #include "region_option.hpp"
@@ -68,9 +69,19 @@ void write(const Map& map, const CellRect& rect, std::int64_t stamp_ns, const Ar
                            name(map.params().rule), map.params().cell_m, map.hash());
 }
 
-void convert(Args args) {
+void convert(Args args, const CLI::App& command) {
   const bool ours =
       args.to.format == "evigrid" || (args.to.format.empty() && fs::path(args.to.out).extension() == ".evigrid");
+  if (ours) {
+    refuse_given(command,
+                 {"--planes", "--metres", "--mode", "--occupied", "--free", "--max-unknown", "--slab", "--frame",
+                  "--topic", "--max-image-mb"},
+                 "says nothing of a saved map, which holds every cell as it is");
+  }
+  if (!is_plan(args.in)) {
+    refuse_given(command, {"--certainty", "--rule", "--resolution"},
+                 "is for plans; the cells of a saved map are what they are");
+  }
   std::optional<ExportFormat> format;
   if (!ours) format = args.to.checked();
   if (ours) require_writable(args.to.out);
@@ -110,7 +121,7 @@ void add_convert(CLI::App& app) {
       "  evigrid convert plan.png --resolution 0.05 -o plan.evigrid --rule dempster\n"
       "  evigrid convert out -o corner.evigrid --region 0,0,5,5\n"
       "  evigrid convert house.evigrid -o copy.yaml --mode raw\n");
-  command->callback([args] { convert(*args); });
+  command->callback([args, command] { convert(*args, *command); });
 }
 
 }  // namespace evigrid::driver

@@ -14,6 +14,7 @@
 #include "cycle/fleet_run.hpp"
 #include "cycle/replay.hpp"
 #include "error.hpp"
+#include "given_options.hpp"
 #include "options.hpp"
 #include "out/out_dir.hpp"
 #include "progress.hpp"
@@ -163,7 +164,7 @@ Json replay_log(const FleetOptions& o, Results& results) {
           {"map_hash", hash}};
 }
 
-void run_cycle(const FleetOptions& o) {
+void run_cycle(const FleetOptions& o, const CLI::App& command) {
   if (o.replay.empty()) {
     if (o.part != "all") throw InputError("--part: is for --replay");
     (void)plan_fleet(o);
@@ -171,8 +172,9 @@ void run_cycle(const FleetOptions& o) {
       for (const double value : sweep.values) (void)plan_fleet(with(o, sweep.what, value));
   } else {
     (void)parse_part(o.part);
-    if (o.find_max || !o.sweeps.empty() || !o.log.empty())
-      throw InputError("--replay: fuses a log, beside it there is no --find-max, --sweep or --log");
+    refuse_given_but(command,
+                     {"--replay", "--part", "--save-map", "--threads", "--executor", "--kernel", "--out", "--json"},
+                     "is not for --replay, which fuses what a log holds");
   }
   Results results(o);
   Json report;
@@ -208,7 +210,8 @@ void add_cycle(CLI::App& app) {
   add("--most-robots", o.most_robots, "where --find-max stops")->capture_default_str();
   add("--sweep", o.sweeps,
       "NAME=V,V,...: the same with one option varied: robots, sensors, grid, cell, threads or scans; several may be "
-      "given");
+      "given")
+      ->allow_extra_args(false);
   add("--policy", o.policy, "when a cycle would overrun: none, backlog or skip")->capture_default_str();
   add("--backlog", o.backlog, "scans that may wait (default: two cycles' scans)");
   add("--slice", o.slice, "scans fused between two looks at the clock, with a policy")->capture_default_str();
@@ -245,7 +248,7 @@ void add_cycle(CLI::App& app) {
       "  evigrid cycle --robots 300 --policy skip --deadline-ms 20 -o out/skip\n"
       "  evigrid cycle --replay out/skip/scans.evilog --part fused\n"
       "  evigrid cycle --robots 200 --sweep robots=50,100,200 --sweep threads=1,2 -o out/sweep\n");
-  command->callback([options] { run_cycle(*options); });
+  command->callback([options, command] { run_cycle(*options, *command); });
 }
 
 }  // namespace evigrid::driver

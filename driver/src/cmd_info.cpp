@@ -16,6 +16,7 @@
 #include "commands.hpp"
 #include "evigrid/evigrid.hpp"
 #include "export/octomap_slab.hpp"
+#include "given_options.hpp"
 #include "options.hpp"
 #include "out/out_dir.hpp"
 #include "region_option.hpp"
@@ -169,7 +170,8 @@ void add_info(CLI::App& app) {
       "own\ncells, tiles and hash; map_hash is what the file says of the whole.\n\n"
       "Examples:\n  evigrid info\n  evigrid info out\n  evigrid info out/map.evigrid --json -\n"
       "  evigrid info out --region=-2,-2,6,4\n");
-  command->callback([args] {
+  command->callback([args, command] {
+    if (args->map.empty()) refuse_given(*command, {"--region"}, "is for a MAP");
     const Json all = args->map.empty() ? facts() : map_facts(args->map, args->region_m);
     const std::string bytes = all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // paths hold any bytes
     if (args->json == "-") {

@@ -61,8 +61,11 @@ void add_map(CLI::App& app) {
   command->add_option("--format", args->format, fmt::format("{}", fmt::join(log_formats(), ", ")))
       ->capture_default_str();
   command->add_option("--scans", args->scans, "map these alone: N, or A:B up to but not including B; from 0");
-  command->add_option("--sensors", args->sensors, "map these kinds or names of sensors alone, e.g. sonar")
-      ->delimiter(',');
+  command
+      ->add_option("--sensors", args->sensors,
+                   "map these kinds or names of sensors alone, comma-separated, e.g. sonar,ir")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   add_bag_options(*command, args->bag);
   add_mapping_options(*command, args->mapping);
   CLI::Option* journal =

@@ -126,11 +126,13 @@ void add_model(CLI::App& app) {
   command->add_option("--aperture", args->aperture_deg, "full opening of a cone, degrees")->capture_default_str();
   command->add_option("--reliability", args->reliability, "Shafer discount in (0, 1]")->capture_default_str();
   command->add_option("--max-range", args->max_range_m, "m (default: 5 for cones, 10 for beam)");
-  command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable");
+  command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable")
+      ->allow_extra_args(false);
   command->add_option("--cell", args->cell_m, "side of a cell, m: moravec1985 shares o among the cells of its arc")
       ->capture_default_str();
-  command->add_option("--revision", args->revision, "revise the masses by this file of `evigrid train`");
-  command->add_option("--sensor", args->sensor, "which sensor of that file")->capture_default_str();
+  CLI::Option* revision =
+      command->add_option("--revision", args->revision, "revise the masses by this file of `evigrid train`");
+  command->add_option("--sensor", args->sensor, "which sensor of that file")->capture_default_str()->needs(revision);
   command->footer(
       "Writes CSV d_m,theta_deg,e,o,u,c: masses of empty, occupied, unknown, and the paradoxical mass of li2006 and\n"
       "li2014. probability: e = 1 - P, o = P. fuzzy, moravec1985: e and o are memberships, u = (1-e)(1-o) neither, c = "

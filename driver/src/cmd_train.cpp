@@ -49,6 +49,16 @@ std::string table(std::size_t sensor, const Trained& t) {
                                                : "  the revision does NOT beat the constant\n");
 }
 
+/// What could not be read of the data, if anything.
+std::string left_out(const Samples& samples) {
+  std::string out;
+  for (const auto& [reason, times] : samples.malformed)
+    out += fmt::format("{} {} {}", out.empty() ? "records_malformed:" : ",", reason, times);
+  if (!out.empty()) out += "\n";
+  for (const std::string& warning : samples.warnings) out += "  " + warning + "\n";
+  return out;
+}
+
 void run_train(const Args& args) {
   Sensor s;
   s.model = parse_model(args.model);
@@ -68,7 +78,8 @@ void run_train(const Args& args) {
   if (args.options.examples < 100) throw InputError("--examples: must be at least 100");
   require_writable(args.out);
   if (!args.json.empty() && args.json != "-") require_writable(args.json);
-  std::vector<std::vector<Sample>> samples = read_samples(args.data);
+  Samples read = read_samples(args.data);
+  std::vector<std::vector<Sample>>& samples = read.by_sensor;
   for (auto& one : samples) {
     std::erase_if(one, [&](const Sample& x) { return x.reading_m < s.min_range_m || x.reading_m > s.max_range_m; });
   }
@@ -78,9 +89,12 @@ void run_train(const Args& args) {
     samples.resize(1);
   }
   std::vector<Revision> revisions;
-  nlohmann::ordered_json report{
-      {"data", args.data}, {"model", args.model}, {"sensors", nlohmann::ordered_json::array()}};
-  std::string text;
+  nlohmann::ordered_json report{{"data", args.data},
+                                {"model", args.model},
+                                {"records_malformed", read.malformed},
+                                {"warnings", read.warnings},
+                                {"sensors", nlohmann::ordered_json::array()}};
+  std::string text = left_out(read);
   Progress progress("training");
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (samples[i].empty()) continue;
@@ -106,8 +120,9 @@ void run_train(const Args& args) {
     progress.show(i + 1, samples.size());
   }
   if (revisions.empty())
-    throw InputError(
-        fmt::format("{}: no reading within [{}, {}] m with an echo", args.data, s.min_range_m, s.max_range_m));
+    throw InputError(fmt::format("{}: no reading within [{}, {}] m with an echo{}", args.data, s.min_range_m,
+                                 s.max_range_m,
+                                 read.warnings.empty() ? "" : "; first record left out: " + read.warnings.front()));
   write_file(args.out, to_text(revisions));
   const std::string bytes = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (!args.json.empty() && args.json != "-") write_file(args.json, bytes);
@@ -126,7 +141,8 @@ void add_train(CLI::App& app) {
                    "the revision, a small JSON file, for --revision of `evigrid map`, run and model")
       ->required();
   command->add_option("--model", args->model, "sensor model whose masses are revised")->capture_default_str();
-  command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable");
+  command->add_option("--param", args->params, "NAME=VALUE: a parameter of the model, repeatable")
+      ->allow_extra_args(false);
   command->add_option("--aperture", args->aperture_deg, "full opening of the cones, degrees")->capture_default_str();
   command->add_option("--min-range", args->min_range_m, "m: nearer readings are left out")->capture_default_str();
   command->add_option("--max-range", args->max_range_m, "m: farther readings are left out")->capture_default_str();

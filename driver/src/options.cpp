@@ -130,8 +130,10 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
   command.add_option("--rule", o.rule, "combination rule: " + map_rule_names())->capture_default_str();
   command.add_option("--model", o.model,
                      "sensor model: " + model_names() + " (default: beam for lasers, li2014 for sonars)");
-  command.add_option("--param", o.params,
-                     "MODEL.NAME=VALUE: a parameter of a sensor model, repeatable; `evigrid model --help` lists them");
+  command
+      .add_option("--param", o.params,
+                  "MODEL.NAME=VALUE: a parameter of a sensor model, repeatable; `evigrid model --help` lists them")
+      ->allow_extra_args(false);
   command.add_option("--decay", o.decay_s,
                      "s: forgetting; a cell keeps exp(-t/SECONDS) of its masses t after the last reading that told it "
                      "something (rules whose cells are masses; 0: never)");
@@ -153,7 +155,8 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
                   "IF_EMPTY,IF_OCCUPIED: reliability where a cell is empty (kept of m(occupied)) and where it is "
                   "occupied (kept of m(empty)), each in (0, 1]")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->allow_extra_args(false);
   command.add_flag("--clear-no-return", o.clear_no_return, "lasers: a beam without return clears up to --max-range");
   command
       .add_option("--bayes-likelihood", o.bayes_likelihood,
@@ -161,7 +164,8 @@ void add_mapping_options(CLI::App& command, MappingOptions& o) {
       ->capture_default_str();
   command.add_option("--bayes-limits", o.bayes_limits, "rule bayes: least,most P(occupied) of a cell (0.001,0.999)")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->allow_extra_args(false);
   command.add_option("--threads", o.threads, "worker threads; 0: as many as the machine has")->capture_default_str();
   command
       .add_option("--executor", o.executor,

@@ -13,7 +13,8 @@ namespace evigrid::driver {
 void add_region_option(CLI::App& command, std::vector<double>& region_m) {
   command.add_option("--region,--rect", region_m, "x0,y0,x1,y1 in metres: only this part of the map is read")
       ->delimiter(',')
-      ->expected(4);
+      ->expected(4)
+      ->allow_extra_args(false);
 }
 
 CellRect cells_of(const std::vector<double>& r, double cell_m) {

@@ -152,6 +152,15 @@ void add_world_options(CLI::App& command, WorldOptions& o) {
   command.add_option("--seed", o.seed, "of noise and of --world building (default: the scene's; 1)");
 }
 
+void refuse_world_options(const WorldOptions& o) {
+  for (const auto& [given, name] : {std::pair{!o.start.empty(), "--start"},
+                                    {o.resolution_m.has_value(), "--resolution"},
+                                    {o.height_m.has_value(), "--height"},
+                                    {!o.up.empty(), "--up"}}) {
+    if (given) throw InputError(fmt::format("{}: is for --world", name));
+  }
+}
+
 SceneInput open_input(const WorldOptions& o) {
   if (o.seed && *o.seed < 0) throw InputError(fmt::format("--seed: {} is below 0", *o.seed));
   try {
@@ -159,12 +168,7 @@ SceneInput open_input(const WorldOptions& o) {
       if (!o.scene.empty()) throw InputError("--world: cannot be given beside a scene");
       return open_world(o);
     }
-    for (const auto& [given, name] : {std::pair{!o.start.empty(), "--start"},
-                                      {o.resolution_m.has_value(), "--resolution"},
-                                      {o.height_m.has_value(), "--height"},
-                                      {!o.up.empty(), "--up"}}) {
-      if (given) throw InputError(fmt::format("{}: is for --world", name));
-    }
+    refuse_world_options(o);
     SceneInput input = open_scene(o.scene);
     if (!o.robot.empty()) scenes::use_robot(input.scene, o.robot, vocabulary());
     if (o.seed) input.scene.trajectory.seed = static_cast<std::uint64_t>(*o.seed);

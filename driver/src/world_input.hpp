@@ -22,6 +22,9 @@ struct WorldOptions {
 
 void add_world_options(CLI::App& command, WorldOptions& options);
 
+/// Throws InputError naming the first option given that says how a --world is meant: there is none.
+void refuse_world_options(const WorldOptions& options);
+
 /// Throws InputError.
 SceneInput open_input(const WorldOptions& options);
 

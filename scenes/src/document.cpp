@@ -81,7 +81,9 @@ const toml::node& Table::get(std::string_view key) {
 
 double Table::checked_number(const toml::node& node, const std::string& key, Limits limits) const {
   if (!node.is_number()) fail_at(node, key, "must be a number");
-  const double value = *node.value<double>();
+  // As stored: value<double>() is empty for whole numbers that no double holds exactly.
+  const double value =
+      node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
   if (!std::isfinite(value)) fail_at(node, key, "must be finite");
   if (value < limits.low || value > limits.high || (limits.low_open && value == limits.low))
     fail_at(node, key, "is " + shown(value) + ", must be within " + words(limits));

@@ -27,7 +27,7 @@ double longest_s(const TrajectorySpec& run) {
   return time_s;
 }
 
-/// Sets the waypoints, and the start where its heading is given.
+/// Sets the waypoints, and the start where one is given: the tour does not ask for its yaw, the robot faces it.
 void plan_tour(Table& t, const Scene& scene, const SceneLimits& limits, TrajectorySpec& run) {
   TourSpec tour;
   tour.most_cells = limits.most_tour_cells;

@@ -143,7 +143,46 @@ TEST_F(BadInput, Model) {
   expect_refused({"model", "li2014", "--reading", "77", "--at", "1,0"}, "--reading: 77");
   expect_refused({"model", "li2014", "--reading", "nan", "--at", "1,0"}, "--reading: nan");
   expect_refused({"model", "li2014", "--reading", "1", "--at", "1,0", "--aperture", "0"}, "aperture");
+  expect_refused({"model", "li2014", "--reading", "1", "--at", "1,0", "--sensor", "1"}, "--revision");
 }
+TEST_F(BadInput, AListTakesNoPositionalWord) {
+  const std::vector<std::string> end{good, "-o", dir.at("out")};
+  const auto expect_mapped = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "map");
+    words.insert(words.end(), end.begin(), end.end());
+    const Ran ran = evigrid(words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  };
+  expect_mapped({"--sensors", "FLASER"});
+  expect_mapped({"--sensors", "FLASER,FLASER", "--sensors", "FLASER"});
+  expect_mapped({"--param", "beam.empty=0.5", "--param", "beam.occupied=0.7"});
+  expect_mapped({"--contextual", "0.9,0.8"});
+  expect_mapped({"--rule", "bayes", "--bayes-limits", "0.01,0.99"});
+  const std::string csv = dir.at("cells.csv");
+  for (const std::vector<std::string>& list : {std::vector<std::string>{"--planes", "e,o"}, {"--region", "0,0,2,2"}}) {
+    const Ran ran = evigrid({"export", list[0], list[1], dir.at("out"), "-o", csv});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  }
+  EXPECT_EQ(evigrid({"export", "--region", "0", "0", "2", "2", dir.at("out"), "-o", csv}).code, 0);
+  expect_refused({"compare", "--topics", "/scan", dir.at("none.bag"), "-o", dir.at("no")}, "none.bag");
+  expect_refused({"cycle", "--sweep", "robots=1", "stray"}, "stray");
+}
+TEST_F(BadInput, OptionsOfBagsAreForBags) {
+  expect_map_refused(good, "--topics: is for ROS bags", {"--topics", "/scan"});
+  expect_map_refused(good, "--fixed-frame: is for ROS bags", {"--fixed-frame", "odom"});
+  expect_refused({"log", good, "--base-frame", "base"}, "--base-frame: is for ROS bags");
+  expect_refused({"compare", "default", "-o", dir.at("o"), "--topics", "/scan"}, "--topics: is for ROS bags");
+  expect_refused({"compare", "-o", dir.at("o"), "--topics", "/scan"}, "--topics: is for ROS bags");
+}
+TEST_F(BadInput, OptionsOfScenesAreNotForLogs) {
+  for (const std::vector<std::string>& one : {std::vector<std::string>{"--start", "1,1"},
+                                              {"--seed", "3"},
+                                              {"--resolution", "0.1"},
+                                              {"--height", "1"},
+                                              {"--up", "x"}})
+    expect_refused({"compare", good, "-o", dir.at("o"), one[0], one[1]}, one[0] + ": is for ");
+}
+TEST_F(BadInput, ARegionIsOfAMap) { expect_refused({"info", "--region=0,0,1,1"}, "--region: is for a MAP"); }
 
 }  // namespace
 }  // namespace evigrid::driver

@@ -43,7 +43,7 @@ TEST(Calibrate, MedianAndMadByHand) {
   EXPECT_EQ(c.all.off, 3u);
   EXPECT_NEAR(c.all.bias_m, 0.01, 1e-6);
   EXPECT_NEAR(c.all.sigma_m, 1.4826 * 0.01, 1e-6);
-  EXPECT_NEAR(c.reliability, 0.8, 1e-9);
+  EXPECT_NEAR(c.reliability.value(), 0.8, 1e-9);
   EXPECT_EQ(c.noise.bins, 0u);  // five echoes say nothing about spread
   ASSERT_EQ(c.bins.size(), 1u);
   EXPECT_DOUBLE_EQ(c.bins[0].from_m, 1);
@@ -61,7 +61,7 @@ TEST(Calibrate, ASensorOfKnownFaultsIsFound) {
   }
   const Calibration c = calibrate(truth_log(samples), {}).at(0);
   EXPECT_NEAR(c.all.no_return_share(), 0.05, 0.005);
-  EXPECT_NEAR(c.reliability, 1 - 0.03 / 0.95, 0.005);
+  EXPECT_NEAR(c.reliability.value(), 1 - 0.03 / 0.95, 0.005);
   EXPECT_NEAR(c.noise.ratio, 0.01, 0.001);  // 3 % outliers widen the MAD by 4 %
   EXPECT_NEAR(c.noise.sigma_m, 0.004, 0.001);
   for (const RangeBin& bin : c.bins) EXPECT_NEAR(bin.stats.bias_m, -0.03, 0.004);
@@ -107,6 +107,19 @@ TEST(CalibrateCommand, WritesFiguresAndPicture) {
   EXPECT_TRUE(starts_with(slurp(dir.at("out/calibration.png")), "\x89PNG"));
   const Ran table = evigrid({"calibrate", log});
   EXPECT_TRUE(contains(table.out, "suggested: reliability = 1.000"));
+}
+
+TEST(CalibrateCommand, OfASensorWithoutAnEchoNothingIsSuggested) {
+  const TempDir dir;
+  const std::string log =
+      dir.write("e.csv", ",time,range,velocity_command,sonar1,sonar2\n0,0,1,0,8,1\n1,1,1,0,8.0,1\n2,2,1,0,nan,1\n");
+  const Ran ran = evigrid({"calibrate", log, "--json", dir.at("c.json")});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(contains(ran.out, "not a single echo: nothing can be suggested"));
+  EXPECT_TRUE(contains(ran.out, "suggested: reliability = 1.000"));  // of sonar2
+  const Json r = Json::parse(slurp(dir.at("c.json")));
+  EXPECT_TRUE(r["sensors"][0]["suggested"].is_null());
+  EXPECT_EQ(r["sensors"][1]["suggested"]["reliability"], 1.0);
 }
 
 TEST(CalibrateCommand, RefusesWhatHoldsNoTruth) {

@@ -132,6 +132,14 @@ TEST(Carmen, OddRangesReachTheEngineToBeCounted) {
   EXPECT_EQ(log.absurd_ranges, 1u);
 }
 
+TEST(Carmen, ANumberThatNoFloatHoldsIsAbsurdToo) {
+  const Log log = read_text(flaser_with(180, 1, "1e39", 1) + flaser_with(180, 2, "1e308", 2));
+  ASSERT_EQ(log.scans.size(), 2u);
+  EXPECT_TRUE(std::isnan(log.ranges_m[1]));
+  EXPECT_TRUE(std::isnan(log.ranges_m[182]));
+  EXPECT_EQ(log.absurd_ranges, 2u);
+}
+
 TEST(Carmen, NoReturnIsThePlateauAtTheTop) {
   const Log codes = read_text(flaser_with(180, 1, "81.91", 1) + flaser_with(180, 2, "81.87", 2));
   EXPECT_NEAR(codes.sensors[0].sensor.no_return_m, 81.86, 1e-4);

@@ -9,6 +9,7 @@
 #include "error.hpp"
 #include "log/readers.hpp"
 #include "log/sensor_line.hpp"
+#include "log/summary.hpp"
 #include "program.hpp"
 
 namespace evigrid::driver {
@@ -46,7 +47,10 @@ TEST(CastLog, MapsToTheMapOfTheRun) {
 }
 
 TEST(CastLog, ASensorLineIsTheSensor) {
-  LogSensor laser{"laser", {}, "front", true};
+  LogSensor laser;
+  laser.kind = "laser";
+  laser.name = "front";
+  laser.stated = true;
   Sensor& s = laser.sensor;
   s.model = Model::beam;
   s.T_robot_sensor = {0.1, -1.0 / 3, 2};
@@ -86,6 +90,15 @@ TEST(CastLog, ScansAreStepsAndBeamsFollowOneAnother) {
   EXPECT_EQ(log.malformed.at("wrong beam"), 2U);
   EXPECT_EQ(log.malformed.at("unknown sensor"), 1U);
   EXPECT_EQ(log.malformed.at("bad number"), 1U);
+}
+
+TEST(CastLog, TimesWhoseDifferenceNeedsMoreThan64BitsAreNone) {
+  const Log log = read_text("# sensor 0 kind=sonar\n" + std::string(kHead) +
+                            "0,-9223372036854775808,1,2,0.5,0,1,0\n1,9223372036854775807,1,2,0.5,0,1,0\n"
+                            "2,4499999999999999999,1,2,0.5,0,1,0\n3,-4499999999999999999,1,2,0.5,0,1,0\n");
+  EXPECT_EQ(log.scans.size(), 2U);
+  EXPECT_EQ(log.malformed.at("bad number"), 2U);
+  EXPECT_EQ(summarise(log)["time"]["span_s"], 9e9);
 }
 
 TEST(CastLog, WithoutSensorsItSaysHowToWriteThem) {

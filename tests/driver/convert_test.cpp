@@ -103,5 +103,41 @@ TEST(Convert, BadInputIsNamedAndLeavesNothing) {
           "--region: is for saved maps");
 }
 
+TEST(Convert, WhatWouldBeIgnoredIsRefused) {
+  const TempDir dir;
+  const std::string out = mapped_drive(dir), ours = dir.at("x.evigrid");
+  const std::string plan = dir.write("a.pgm", "P2 1 1 255 0\n");
+  const auto refused = [&](std::vector<std::string> args, const std::string& why) {
+    args.insert(args.begin(), "convert");
+    const auto before = dir.names();
+    const Ran ran = evigrid(args);
+    EXPECT_EQ(ran.code, 2) << why;
+    EXPECT_TRUE(contains(ran.err, why)) << ran.err;
+    EXPECT_EQ(dir.names(), before);
+  };
+  for (const std::vector<std::string>& one :
+       {std::vector<std::string>{"--rule", "dempster"}, {"--certainty", "7"}, {"--resolution=-3"}}) {
+    std::vector<std::string> args{out, "-o", dir.at("x.yaml")};
+    args.insert(args.end(), one.begin(), one.end());
+    refused(args, one[0].substr(0, one[0].find('=')) + ": is for plans");
+  }
+  for (const std::vector<std::string>& one : {std::vector<std::string>{"--mode", "foo"},
+                                              {"--occupied", "2"},
+                                              {"--free", "9"},
+                                              {"--max-unknown", "2"},
+                                              {"--slab", "2,1"},
+                                              {"--planes", "foo"},
+                                              {"--frame", "f"},
+                                              {"--topic", "t"},
+                                              {"--max-image-mb=-1"},
+                                              {"--metres"}}) {
+    for (std::vector<std::string> args :
+         {std::vector<std::string>{out, "-o", ours}, {plan, "--resolution", "1", "-o", ours}}) {
+      args.insert(args.end(), one.begin(), one.end());
+      refused(args, one[0].substr(0, one[0].find('=')) + ": says nothing of a saved map");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace evigrid::driver

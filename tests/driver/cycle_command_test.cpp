@@ -113,6 +113,9 @@ TEST(Cycle, PoliciesAndReplayMakeTheSameMap) {
   EXPECT_EQ(
       report({"cycle", "--replay", dir.at("log"), "--part", "fused", "--json", "-", "--threads", "2"})["map_hash"],
       skip["map_hash"]);
+  EXPECT_EQ(report({"cycle", "--replay", dir.at("log"), "--json", "-", "--executor", "serial", "--kernel", "scalar",
+                    "--save-map", "-o", dir.at("out")})["map_hash"],
+            hash);
 }
 
 TEST(Cycle, SeveralScansARobotsOwnSensorsAndLasers) {
@@ -151,16 +154,24 @@ TEST(Cycle, WhatCannotBeIsRefusedWithItsName) {
     std::string message;
   };
   for (const Row& row :
-       {Row{{"cycle", "--robots", "0"}, "--robots: 0 is not within"}, Row{{"cycle", "--robots", "many"}, "--robots"},
+       {Row{{"cycle", "--robots", "0"}, "--robots: 0 is not within"},
+        Row{{"cycle", "--robots", "many"}, "--robots"},
         Row{{"cycle", "--grid", "64", "--cell", "0.01"}, "--grid 64 of 0.01 m cells"},
         Row{{"cycle", "--policy", "wait"}, "--policy: 'wait'"},
-        Row{{"cycle", "--policy", "skip"}, "--log FILE or -o DIR"}, Row{{"cycle", "--kernel", "neon"}, "--kernel"},
-        Row{{"cycle", "--executor", "fibers"}, "--executor"}, Row{{"cycle", "--sweep", "robots"}, "--sweep"},
-        Row{{"cycle", "--sweep", "robots=0"}, "--sweep"}, Row{{"cycle", "--part", "fused"}, "--part: is for --replay"},
+        Row{{"cycle", "--policy", "skip"}, "--log FILE or -o DIR"},
+        Row{{"cycle", "--kernel", "neon"}, "--kernel"},
+        Row{{"cycle", "--executor", "fibers"}, "--executor"},
+        Row{{"cycle", "--sweep", "robots"}, "--sweep"},
+        Row{{"cycle", "--sweep", "robots=0"}, "--sweep"},
+        Row{{"cycle", "--part", "fused"}, "--part: is for --replay"},
         Row{{"cycle", "--replay", dir.at("none")}, "cannot be read"},
         Row{{"cycle", "--replay", dir.write("text", "hello, this is no log")}, "is no scan log"},
         Row{{"cycle", "--replay", dir.at("text"), "--part", "half"}, "--part: 'half'"},
         Row{{"cycle", "--replay", dir.at("text"), "--find-max"}, "--replay"},
+        Row{{"cycle", "--replay", dir.at("text"), "--rule", "pcr5"}, "--rule: is not for --replay"},
+        Row{{"cycle", "--replay", dir.at("text"), "--robots", "5"}, "--robots: is not for --replay"},
+        Row{{"cycle", "--replay", dir.at("text"), "--memory-mb", "5"}, "--memory-mb: is not for --replay"},
+        Row{{"cycle", "--replay", dir.at("text"), "--paced"}, "--paced: is not for --replay"},
         Row{{"cycle", "--robots", "50", "--grid", "512", "--memory-mb", "1"}, "--memory-mb"},
         Row{{"cycle", "--json", dir.at("no/folder/report")}, "cannot be written"}}) {
     const Ran ran = evigrid(row.arguments);

@@ -2,11 +2,12 @@
 // Every reader against every kind of damage: what can be used is used and the rest is counted by reason; what cannot be
 // read ends with a message that names the file; nothing but InputError is ever thrown.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
-
 #include <cmath>
 #include <random>
+#include <thread>
 
 #include "error.hpp"
 #include "log/line_reader.hpp"
@@ -96,6 +97,7 @@ TEST_P(Damage, OddRangesReachTheEngineToBeCounted) {
   EXPECT_EQ(odd("inf"), (std::pair<std::size_t, std::uint64_t>{0, 0}));
   EXPECT_EQ(odd("-5"), (std::pair<std::size_t, std::uint64_t>{0, 0}));
   EXPECT_EQ(odd("9e9"), (std::pair<std::size_t, std::uint64_t>{1, 1}));
+  EXPECT_EQ(odd("1e300"), (std::pair<std::size_t, std::uint64_t>{1, 1}));  // beyond what a float holds
 }
 
 TEST_P(Damage, TimeBackwardsKeepsTheLineOrder) {
@@ -122,6 +124,28 @@ TEST_P(Damage, LineEndsOfWindowsAByteOrderMarkAndCommentsChangeNothing) {
 TEST_P(Damage, GzipIsTheSameLog) {
   const Log plain = read_log({good.write(dir, good.text())}, good.format);
   expect_same(plain, read_log({dir.write_gz(good.file, good.text())}, "auto"));
+}
+
+TEST_P(Damage, APipeIsTheSameLog) {  // it can be read once, and holds more than one look at it takes
+  FormatSample many = good;
+  const std::size_t rows = good.format == "ring8" ? 0 : (std::size_t{1} << 19) / good.rows[0].size();  // one a pose
+  for (std::size_t i = 0; i < rows; ++i) many.rows.push_back(good.rows[i % 3]);
+  const Log whole = read_log({many.write(dir, many.text())}, good.format);
+  for (const std::string& bytes : {many.text(), slurp(dir.write_gz("packed", many.text()))}) {
+    std::vector<std::string> paths, texts;
+    for (const auto& [name, text] : many.beside) paths.push_back(dir.at(name)), texts.push_back(text);
+    paths.push_back(dir.at(many.file)), texts.push_back(bytes);
+    for (const std::string& path : paths) {
+      std::filesystem::remove(path);
+      ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    }
+    std::thread writer([&] {
+      for (std::size_t i = 0; i < paths.size(); ++i) std::ofstream(paths[i], std::ios::binary) << texts[i];
+    });
+    expect_same(whole, read_log(paths, "auto"));
+    writer.join();
+    for (const std::string& path : paths) std::filesystem::remove(path);
+  }
 }
 
 TEST_P(Damage, MemoryIsTheSameLog) {
@@ -269,6 +293,31 @@ TEST(LineReader, MemoryHoldsTheSameLinesAsAFile) {
   EXPECT_EQ(memory.line_number(), 40000u);
   LineReader binary(Source{"m", std::string_view("a\0b\n", 4)});
   EXPECT_THROW((void)binary.next(b), InputError);
+}
+
+TEST(LineReader, APackedTextOrAPipeHasAnEnd) {
+  const TempDir dir;
+  const std::string text(100000, '\n');
+  const auto lines_of = [&](const std::string& path, std::uint64_t most) {
+    LineReader lines(Source{path}, most);
+    std::size_t count = 0;
+    for (std::string_view line; lines.next(line);) ++count;
+    return count;
+  };
+  EXPECT_EQ(lines_of(dir.write("plain", text), 10), text.size());
+  EXPECT_EQ(lines_of(dir.write_gz("packed", text), text.size()), text.size());
+  EXPECT_THROW((void)lines_of(dir.at("packed"), text.size() - 1), InputError);
+  const std::string pipe = dir.at("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::uint64_t most : {text.size(), text.size() - 1}) {
+    std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << text; });
+    if (most == text.size()) {
+      EXPECT_EQ(lines_of(pipe, most), text.size());
+    } else {
+      EXPECT_THROW((void)lines_of(pipe, most), InputError);
+    }
+    writer.join();
+  }
 }
 
 }  // namespace

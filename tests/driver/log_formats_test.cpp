@@ -198,6 +198,12 @@ TEST(Roomba12, MissingColumnsAreNamed) {
   EXPECT_TRUE(contains(error_of("x,y,heading_angle_degrees,sensor_0\n1,2,3,4\n"), "(bytes 1):1:sensor_1"));
 }
 
+TEST(Roomba12, ColumnsInAnotherOrderAreNotReadAsIfTheyWereInOrder) {
+  EXPECT_TRUE(contains(
+      error_of("y,x,heading_angle_degrees," + numbered("sensor_", 0, 12) + "\n4,3,90," + repeated("1.5", 12) + "\n"),
+      "(bytes 1):1:x: is not column 1"));
+}
+
 TEST(Uci24, ClockwiseWithoutPoses) {
   std::string row = repeated("1.5", 24) + ",Sharp-Right-Turn";
   row = with_field(row, ',', 3, "5.000");

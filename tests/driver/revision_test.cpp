@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Learned revision: what it learns of a sensor of a known fault, its file, and the commands that make and use it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <thread>
 
 #include "error.hpp"
 #include "program.hpp"
@@ -136,6 +139,51 @@ TEST(Revision, FromSimulatedReadingsToRevisedMasses) {
   revised[1] = "li2006";
   EXPECT_EQ(evigrid(revised).code, 2);
   EXPECT_EQ(evigrid({"train", dir.write("no.csv", "step,stamp_ns,sensor\n0,0,0\n"), "-o", dir.at("x.json")}).code, 2);
+}
+
+TEST(Revision, ABadRecordIsCountedAndToldAndTheRestUsed) {
+  const TempDir dir;
+  const std::string head = "step,stamp_ns,x_m,y_m,yaw_rad,sensor,range_m,truth\n";
+  std::string good;
+  int step = 0;
+  for (const Sample& s : biased(0.1, 400))
+    good += fmt::format("{},0,0,0,0,0,{:.9g},{:.9g}\n", step++, s.reading_m, s.truth_m);
+  const std::string bad = "900,0,0,0,0,0,1.x,1\n901,0,0,0,0,-1,1,1\n902,0,0\n903,0,0,0,0,0.5,1,1\n";
+  for (const std::string sensor : {"", "# sensor 0 kind=sonar model=li2014 aperture_rad=0.3 max_range_m=5\n"}) {
+    const auto train = [&](const std::string& rows, const char* json) {
+      return evigrid({"train", dir.write("d.csv", sensor + head + rows), "--examples", "400", "-o", dir.at("r.json"),
+                      "--json", dir.at(json)});
+    };
+    ASSERT_EQ(train(good, "all.json").code, 0);
+    const std::string network = slurp(dir.at("r.json"));
+    const Ran ran = train(good + bad, "some.json");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(slurp(dir.at("r.json")), network);
+    EXPECT_TRUE(contains(ran.out, "records_malformed: bad number")) << ran.out;
+    const int first = sensor.empty() ? 402 : 403;
+    EXPECT_TRUE(contains(ran.out, fmt::format("d.csv:{}: bad number: field 7 is '1.x'", first))) << ran.out;
+    EXPECT_TRUE(contains(ran.out, fmt::format("d.csv:{}: unknown sensor", first + 1))) << ran.out;
+    const auto report = nlohmann::json::parse(slurp(dir.at("some.json")));
+    EXPECT_EQ(report["records_malformed"]["too short"], 1);
+    EXPECT_EQ(report["warnings"].size(), 4U);
+    EXPECT_EQ(nlohmann::json::parse(slurp(dir.at("all.json")))["records_malformed"], nlohmann::json::object());
+    const Ran none = train(bad, "none.json");
+    EXPECT_EQ(none.code, 2);
+    EXPECT_TRUE(contains(none.err, "1.x")) << none.err;
+  }
+}
+
+TEST(Revision, ReadingsComeThroughAPipeToo) {
+  const TempDir dir;
+  std::string rows = "step,stamp_ns,x_m,y_m,yaw_rad,sensor,range_m,truth\n";
+  for (const Sample& s : biased(0.1, 20000)) rows += fmt::format("0,0,0,0,0,0,{:.9g},{:.9g}\n", s.reading_m, s.truth_m);
+  const std::string pipe = dir.at("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << rows; });
+  const Ran ran = evigrid({"train", pipe, "--examples", "400", "-o", dir.at("r.json"), "--json", "-"});
+  writer.join();
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(nlohmann::json::parse(ran.out)["sensors"][0]["readings"], 20000);
 }
 
 }  // namespace

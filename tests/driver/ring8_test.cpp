@@ -60,6 +60,18 @@ TEST_F(Ring8, RowsAreMatchedByTimeStamp) {
   EXPECT_EQ(log.malformed.at("no pose"), 1u);
 }
 
+TEST_F(Ring8, OfPosesWithOneTimeStampTheFirstComesFirst) {
+  dir.write("poses.txt", "1200 1 0 0\n1000 2 0 0\n1200 3 0 0\n1200 4 0 0\n");
+  const std::string row = " 900 900 900 900 900 900 900 900\n";
+  dir.write("measurement.txt", "1200" + row + "1200" + row + "1000" + row + "1000" + row);
+  const Log log = read_log({folder()}, "ring8");
+  ASSERT_EQ(log.scans.size(), 3u);
+  for (const auto& [scan, x_mm] : {std::pair{0u, 1}, {1u, 3}, {2u, 2}})
+    EXPECT_DOUBLE_EQ(log.scans[scan].T_map_robot.x_m, x_mm / 1000.0);
+  EXPECT_EQ(log.malformed.at("no pose"), 1u);
+  EXPECT_EQ(log.malformed.at("no measurement"), 1u);
+}
+
 TEST_F(Ring8, BadRowsAreCountedAndTheRestUsed) {
   dir.write("measurement.txt", std::string("1000 1 2 3\n1200 2000 x 2200 2300 2400 2500 2600 2700\n") +
                                    "1400 nan -5 9999999 3300 3400 3500 3600 3700\n");

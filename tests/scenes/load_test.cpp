@@ -194,6 +194,16 @@ TEST(Load, ValuesOutOfRange) {
             "room.toml:44: trajectory.seed: is -1, must be within [0, 9223372036854775807]");
 }
 
+TEST(Load, WholeNumbersThatNoDoubleHoldsExactly) {  // 2^53 + 1 and the largest
+  EXPECT_EQ(complaint(with("period_s = 0.2", "period_s = 9007199254740993")),
+            "room.toml:43: trajectory.period_s: is 9007199254740992, must be within [0.001, 3600]");
+  EXPECT_EQ(complaint(with("cell_m = 0.1", "cell_m = 0.1\ndecay_s = 9007199254740993")),
+            "room.toml:4: map.decay_s: is 9007199254740992, must be within [0, 1e+09]");
+  EXPECT_EQ(complaint(with("[[1, 1], [2, 1]]", "[[1, 1], [-9223372036854775807, 1]]")),
+            "room.toml:40: trajectory.waypoints[1]: is -9223372036854775808, must be within [-1e+07, 1e+07]");
+  EXPECT_EQ(parse_scene(with("cell_m = 0.1", "cell_m = 2"), "room.toml").map.cell_m, 2);
+}
+
 TEST(Load, NoSonar) {
   std::string text = with("[robot.ring]\ncount = 4\nradius_m = 0.2\nfirst_bearing_deg = 45\n", "");
   const std::size_t at = text.find("[[robot.sonar]]");

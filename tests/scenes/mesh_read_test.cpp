@@ -2,6 +2,7 @@
 // PLY in its three encodings and OBJ read back to the solid they were written of; damage refused with its place.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -149,6 +150,18 @@ TEST(MeshRead, PlyRefusals) {
   expect("ply\nformat ascii 2.0\n", "2: format: the version is not 1.0");
   expect("plyx\n", "1: ply: the file does not begin with \"ply\"");
   expect("ply\nformat ascii 1.0\nelement", "3: end_header: the file ends within the header");
+}
+
+TEST(MeshRead, ALongHeaderTakesNoLongTime) {
+  std::string elements = "ply\nformat ascii 1.0\n", properties = elements + "element vertex 0\n";
+  for (int i = 0; i < 100'000; ++i) {
+    elements += "element e" + std::to_string(i) + " 0\n";
+    properties += "property float p" + std::to_string(i) + "\n";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THROW((void)load(elements + "element e7 0\nend_header\n", ".ply"), SceneError);
+  EXPECT_THROW((void)load(properties + "property int p7\nend_header\n", ".ply"), SceneError);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST(MeshRead, AHugeListCountAsksForNoMemory) {

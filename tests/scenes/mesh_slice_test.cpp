@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <random>
 #include <set>
@@ -191,6 +192,25 @@ TEST(Slice, TheSamePieceTwiceIsKeptOnce) {
   const auto faces = box.faces;
   for (auto f : faces) box.faces.push_back({f[2], f[1], f[0]});  // double-sided
   expect_sides(slice(box, {.height_m = 0.3}), kSquare, 1e-9);
+}
+
+TEST(Slice, AStarOfManyPiecesTakesNoLongTime) {
+  constexpr std::uint32_t kRays = 100'000;
+  Mesh star;
+  star.vertices = {{0, 0, -1}, {0, 0, 1}};
+  for (const Point& p : regular(kRays, 1)) star.vertices.push_back({p.x_m, p.y_m, 0.5});
+  for (std::uint32_t i = 0; i < kRays; ++i) star.faces.push_back({0, 1, i + 2});
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<Wall> walls = slice(star, {.height_m = 0});
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_EQ(walls.size(), kRays);  // no joining where so many meet
+  star.vertices.resize(2 + 6);
+  star.faces.clear();
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    star.vertices[i + 2] = {std::cos(i * std::numbers::pi / 3), std::sin(i * std::numbers::pi / 3), 0.5};
+    star.faces.push_back({0, 1, i + 2});
+  }
+  EXPECT_EQ(slice(star, {.height_m = 0}).size(), 3u);
 }
 
 TEST(Slice, RefusesWhatCannotBe) {

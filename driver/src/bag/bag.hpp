@@ -18,6 +18,8 @@ namespace evigrid::driver {
 bool bags_are_built() noexcept;
 /// Throws InputError "WHAT: this evigrid was built without …" where they are not.
 void require_bags(const std::string& what);
+/// Throws InputError naming the option where any was given: what is read is no bag.
+void refuse_bag_options(const BagOptions& given);
 
 /// One nav_msgs/OccupancyGrid of the rectangle at the map's last stamp, in options.frame on options.topic.
 void write_grid_bag(const Exported& what, const ExportOptions& options, const std::filesystem::path& file);

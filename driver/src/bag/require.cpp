@@ -11,4 +11,13 @@ void require_bags(const std::string& what) {
                    "libnav-msgs-dev and libsensor-msgs-dev and build again");
 }
 
+void refuse_bag_options(const BagOptions& given) {
+  const BagOptions none;
+  const char* const option = given.base_frame != none.base_frame     ? "--base-frame"
+                             : given.fixed_frame != none.fixed_frame ? "--fixed-frame"
+                             : given.topics != none.topics           ? "--topics"
+                                                                     : nullptr;
+  if (option != nullptr) throw InputError(std::string(option) + ": is for ROS bags");
+}
+
 }  // namespace evigrid::driver

@@ -97,7 +97,7 @@ Calibration calibrate_sensor(const Log& log, std::size_t sensor, const Calibrati
     out.bins.push_back({static_cast<double>(at) * limits.bin_m, static_cast<double>(at + 1) * limits.bin_m, bin.first});
   }
   out.noise = fit_noise(out.bins);
-  out.reliability = std::max(kLeastReliability, 1 - out.all.outlier_share());
+  if (out.all.echoes() > 0) out.reliability = std::max(kLeastReliability, 1 - out.all.outlier_share());
   return out;
 }
 

@@ -3,6 +3,7 @@
 // echoes, and what follows for a map (reliability) and a simulation (noise). Metres; error = reading − truth.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,8 @@ struct Calibration {
   ErrorStats all;
   std::vector<RangeBin> bins;
   NoiseFit noise;
-  double reliability = 1;       ///< the share of echoes within the outlier limit
-  std::vector<Sample> samples;  ///< the echoes, for the picture
+  std::optional<double> reliability;  ///< the share of echoes within the outlier limit; none without an echo
+  std::vector<Sample> samples;        ///< the echoes, for the picture
 };
 
 struct CalibrationLimits {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "bag/bag.hpp"
 #include "compare/table.hpp"
 #include "error.hpp"
 #include "log/readers.hpp"
@@ -43,6 +44,8 @@ std::vector<Subject> read_subjects(const CompareOptions& o) {
   if (!o.inputs.empty() && !is_scene(o.inputs.front())) {
     if (!o.robots.empty()) throw InputError("--robots: a recorded log has its own robot");
     if (!o.world.world.empty()) throw InputError("--world: cannot be given beside a log");
+    refuse_world_options(o.world);
+    if (o.world.seed) throw InputError("--seed: is for scenes and a --world");
     out.push_back({"", read_log(o.inputs, "auto", o.bag), std::nullopt});
     const Log& log = out.back().log;
     require_plane(log, o.inputs.front());
@@ -53,6 +56,7 @@ std::vector<Subject> read_subjects(const CompareOptions& o) {
     return out;
   }
   if (o.inputs.size() > 1) throw InputError("one scene at a time");
+  refuse_bag_options(o.bag);
   for (const std::string& robot : o.robots.empty() ? std::vector<std::string>{""} : o.robots) {
     WorldOptions options = o.world;
     if (!o.inputs.empty()) options.scene = o.inputs.front();

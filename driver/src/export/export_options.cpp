@@ -19,7 +19,9 @@ void add_export_options(CLI::App& command, ExportArgs& args) {
   command.add_option("-o,--out", args.out, "file to write, npy: folder; csv: - for standard output")->required();
   command.add_option("--format", args.format, "csv, npy, map_server, octomap or bag (default: by the extension of -o)");
   add_region_option(command, args.region_m);
-  command.add_option("--planes", o.planes, "csv, npy: comma-separated, of " + plane_choices())->delimiter(',');
+  command.add_option("--planes", o.planes, "csv, npy: comma-separated, of " + plane_choices())
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command.add_flag("--metres", o.metres, "csv: x_m,y_m of the cells' centres instead of their indices ix,iy");
   command.add_option("--mode", o.mode, "map_server: trinary, scale or raw")->capture_default_str();
   command.add_option("--occupied", o.occupied, "BetP above it is occupied (map_server, octomap, bag)")
@@ -29,7 +31,8 @@ void add_export_options(CLI::App& command, ExportArgs& args) {
       ->capture_default_str();
   command.add_option("--slab", args.slab_m, "octomap: z0,z1 in metres (default: one layer of voxels above z = 0)")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->allow_extra_args(false);
   command.add_option("--frame", o.frame, "bag, npy: name of the map's frame")->capture_default_str();
   command.add_option("--topic", o.topic, "bag: topic of the grid")->capture_default_str();
   command.add_option("--max-image-mb", o.max_image_mb, "refuse dense output larger than this")->capture_default_str();

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "log/fields.hpp"
@@ -62,21 +61,21 @@ void require_usable(const Sensor& sensor) {
   }
 }
 
-void ranges(const Tokens& t, std::size_t first, std::size_t n, std::vector<float>& out) {
+void ranges(const Tokens& t, std::size_t first, std::size_t n, Log& log, std::vector<float>& out) {
   out.clear();
-  for (std::size_t i = 0; i < n; ++i) out.push_back(static_cast<float>(number(t, first + i)));
+  for (std::size_t i = 0; i < n; ++i) out.push_back(range_m(number(t, first + i), log));
 }
 
 void read_flaser(const Tokens& t, Log& log, std::vector<float>& scratch) {
   if (t.size() < kHead) throw Malformed{"too short", "no number of beams"};
   const std::size_t n = count(t, 1, 2);
   expect_fields(t.size(), kHead + n + kPoses + kTail, n);
-  ranges(t, kHead, n, scratch);
   const std::size_t p = kHead + n;
   const Pose2 pose{number(t, p), number(t, p + 1), number(t, p + 2)};
   const std::int64_t stamp = stamp_ns(number(t, p + kPoses));
   const Sensor sensor = fan(n, -90 * kDeg, flaser_step_rad(n));
   require_usable(sensor);
+  ranges(t, kHead, n, log, scratch);
   append_fan(log, sensor_index(log, t[0], sensor), stamp, pose, scratch);
 }
 
@@ -98,10 +97,10 @@ void read_robotlaser(const Tokens& t, Log& log, std::vector<float>& scratch) {
   if (const double stated_m = number(t, 5); stated_m > 1 && stated_m < sensor.no_return_m)
     sensor.no_return_m = stated_m;
   require_usable(sensor);
-  ranges(t, kCount + 1, n, scratch);
-  if (clockwise) std::reverse(scratch.begin(), scratch.end());
   const Pose2 pose{number(t, p), number(t, p + 1), number(t, p + 2)};
   const std::int64_t stamp = stamp_ns(number(t, p + kPoses + kAfterPoses));
+  ranges(t, kCount + 1, n, log, scratch);
+  if (clockwise) std::reverse(scratch.begin(), scratch.end());
   append_fan(log, sensor_index(log, t[0], sensor), stamp, pose, scratch);
 }
 
@@ -137,19 +136,14 @@ void find_no_return(Log& log) {
   for (std::size_t sensor = 0; sensor < log.sensors.size(); ++sensor) {
     Sensor& s = log.sensors[sensor].sensor;
     if (s.beams < 2) continue;
-    std::vector<std::span<float>> mine;
+    std::vector<std::span<const float>> mine;
     for (const LogReading& r : log.readings) {
       if (r.sensor == sensor) mine.emplace_back(log.ranges_m.data() + r.first, r.count);
     }
     float largest_m = 0;
     for (const auto beams : mine) {
-      for (float& range_m : beams) {
-        if (std::isfinite(range_m) && range_m > kAbsurdRange_m) {
-          range_m = std::numeric_limits<float>::quiet_NaN();
-          ++log.absurd_ranges;
-        } else if (std::isfinite(range_m)) {
-          largest_m = std::max(largest_m, range_m);
-        }
+      for (const float range_m : beams) {
+        if (std::isfinite(range_m)) largest_m = std::max(largest_m, range_m);
       }
     }
     std::size_t close = 0;

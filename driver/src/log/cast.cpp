@@ -15,6 +15,7 @@ namespace evigrid::driver {
 namespace {
 
 constexpr std::size_t kMostColumns = 32, kMostSensors = 4096;
+constexpr std::int64_t kMostStamp_ns = 4'500'000'000'000'000'000;  // the difference of two fits 63 bits
 
 bool looks_like_cast(const FirstLine& line) {
   return line.commas.size() > 6 && line.commas[0] == "step" && line.commas[1] == "stamp_ns" &&
@@ -78,6 +79,7 @@ class CastReader {
     const Columns& c = *columns_;
     expect_fields(t.size(), c.count);
     const std::int64_t step = whole(t, c.step), stamp = whole(t, c.stamp), sensor = whole(t, c.sensor);
+    if (stamp <= -kMostStamp_ns || stamp >= kMostStamp_ns) throw Malformed{"bad number", "the time stamp is no time"};
     const std::int64_t beam = c.beam ? whole(t, *c.beam) : 0;
     if (sensor < 0 || sensor >= static_cast<std::int64_t>(log_.sensors.size()))
       throw Malformed{"unknown sensor", fmt::format("sensor {} of {}", sensor, log_.sensors.size())};

@@ -53,8 +53,7 @@ void read_enmt482(std::span<const Source> sources, Log& log) {
     expect_fields(t.size(), width);
     const std::int64_t stamp = stamp_ns(number(t, time_at));
     const double truth_m = finite_number(t, truth_at);
-    for (std::size_t k = 0; k < at.size(); ++k) ranges[k] = static_cast<float>(number(t, at[k]));
-    for (float& r : ranges) r = range_m(r, log);
+    for (std::size_t k = 0; k < at.size(); ++k) ranges[k] = range_m(number(t, at[k]), log);
     append_cones(log, 0, stamp, {}, ranges);
     log.truth_m.insert(log.truth_m.end(), ranges.size(), static_cast<float>(truth_m));
   });

@@ -25,7 +25,7 @@ struct Format {
   bool (*looks)(const FirstLine&);                    ///< is that a line of this format?
   bool (*owns)(const std::filesystem::path& folder);  ///< null: a folder is never one log of this format
   /// The files of a log from whatever the user named; null: exactly the named ones.
-  std::vector<Source> (*gather)(const std::vector<std::string>& paths);
+  std::vector<Source> (*gather)(std::span<const Source> named);
   std::size_t most_files;
   void (*read)(std::span<const Source>, Log&);  ///< gets at least one source and at most most_files
 };

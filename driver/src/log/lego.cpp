@@ -148,13 +148,9 @@ std::vector<std::string> ending(const fs::path& folder, std::string_view end) {
 bool lego_folder(const fs::path& folder) { return !ending(folder, kScan).empty() && !ending(folder, kMotors).empty(); }
 
 /// A folder, one file that is or has the others beside it, or all files named.
-std::vector<Source> lego_files(const std::vector<std::string>& paths) {
-  std::vector<Source> out;
-  if (paths.size() > 1 || !fs::exists(paths.front())) {
-    for (const std::string& path : paths) out.push_back({path});
-    return out;
-  }
-  std::string stem = paths.front();
+std::vector<Source> lego_files(std::span<const Source> named) {
+  if (named.size() > 1 || !fs::exists(named.front().name)) return {named.begin(), named.end()};
+  std::string stem = named.front().name;
   if (fs::is_directory(stem)) {
     const auto scans = ending(stem, kScan);
     if (scans.size() != 1) {
@@ -169,8 +165,8 @@ std::vector<Source> lego_files(const std::vector<std::string>& paths) {
       one_of_several = true;
     }
   }
-  if (!one_of_several) return {{paths.front()}};
-  out = {{stem + kScan}, {stem + kMotors}};
+  if (!one_of_several) return {named.front()};
+  std::vector<Source> out{{stem + kScan}, {stem + kMotors}};
   if (fs::exists(stem + kReference)) out.push_back({stem + kReference});
   return out;
 }

@@ -25,10 +25,12 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 struct LineReader::Impl {
   gzFile file = nullptr;
+  bool regular = false;
   std::string_view memory;  ///< what is left of it
 };
 
-LineReader::LineReader(const Source& source) : impl_(std::make_unique<Impl>()), path_(source.name), buffer_(kChunk) {
+LineReader::LineReader(const Source& source, std::uint64_t most_unpacked)
+    : impl_(std::make_unique<Impl>()), path_(source.name), buffer_(kChunk), left_(most_unpacked) {
   if (source.bytes) {
     impl_->memory = *source.bytes;
     return;
@@ -38,6 +40,7 @@ LineReader::LineReader(const Source& source) : impl_(std::make_unique<Impl>()), 
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw InputError(fmt::format("{}: no such file", path));
   if (std::filesystem::is_directory(status)) throw InputError(fmt::format("{}: is a folder, not a log file", path));
+  impl_->regular = std::filesystem::is_regular_file(status);
   errno = 0;
   impl_->file = gzopen(path.c_str(), "rb");
   if (impl_->file == nullptr) throw InputError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
@@ -82,7 +85,14 @@ std::size_t LineReader::read_some(char* to, std::size_t most) {
   if (got < 0 || (code != Z_OK && code != Z_STREAM_END)) {
     throw InputError(fmt::format("{}: cannot be read: {}", path_, code == Z_ERRNO ? std::strerror(errno) : message));
   }
-  return static_cast<std::size_t>(got);
+  const auto bytes = static_cast<std::size_t>(got);
+  if (impl_->regular && gzdirect(impl_->file) != 0) return bytes;
+  if (bytes > left_) {
+    throw InputError(
+        fmt::format("{}: too long a text to come packed or through a pipe: put it into a plain file", path_));
+  }
+  left_ -= bytes;
+  return bytes;
 }
 
 bool LineReader::next(std::string_view& line) {

@@ -4,6 +4,7 @@
 // contents. A byte-order mark of UTF-8 is no part of the first line.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,11 +14,15 @@
 
 namespace evigrid::driver {
 
+/// Most bytes of text that a gzip file may unpack to, or that may come through a pipe: nothing but the text itself
+/// shows how long it is, and a small file must not fill the memory. A plain file may hold any number.
+inline constexpr std::uint64_t kMostUnpacked = std::uint64_t{2} << 30;
+
 class LineReader {
  public:
   /// Throws InputError when the file is missing, a folder, or cannot be opened.
   explicit LineReader(const std::string& path) : LineReader(Source{path}) {}
-  explicit LineReader(const Source& source);
+  explicit LineReader(const Source& source, std::uint64_t most_unpacked = kMostUnpacked);
   ~LineReader();
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
@@ -35,6 +40,7 @@ class LineReader {
   std::string path_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0, line_ = 0;
+  std::uint64_t left_;  ///< of most_unpacked
   bool ended_ = false;
 };
 

@@ -12,6 +12,7 @@
 #include "error.hpp"
 #include "log/formats.hpp"
 #include "log/line_reader.hpp"
+#include "log/named_sources.hpp"
 #include "log/readers.hpp"
 
 namespace evigrid::driver {
@@ -86,7 +87,9 @@ Log usable(Log log, const std::string& names) {
 Log read_one_bag(const std::vector<std::string>& paths, const BagOptions& options) {
   if (paths.size() > 1) throw InputError(fmt::format("format {} takes one file, {} are named", kBag, paths.size()));
   std::error_code ignored;
-  if (!fs::is_regular_file(paths.front(), ignored)) throw InputError(paths.front() + ": there is no such file");
+  if (!fs::exists(paths.front(), ignored)) throw InputError(paths.front() + ": there is no such file");
+  if (!fs::is_regular_file(paths.front(), ignored))
+    throw InputError(paths.front() + ": is no file; a bag comes neither in a folder nor through a pipe");
   require_bags(paths.front());
   Log log;
   log.format = kBag;
@@ -105,6 +108,17 @@ Log read(const Format& format, std::span<const Source> sources) {
   std::string names;
   for (const Source& source : sources) names += (names.empty() ? "" : ", ") + source.name;
   return usable(std::move(log), names);
+}
+
+const Format& format_of(const NamedSources& named, const std::string& name) {
+  const Source& first = named.all().front();
+  if (name != "auto") return format_named(name);
+  return fs::is_directory(first.name) ? format_of_folder(first.name) : format_of_lines(first);
+}
+
+Log read(const Format& format, const NamedSources& named) {
+  if (format.gather != nullptr) return read(format, format.gather(named.all()));
+  return read(format, named.all());
 }
 
 }  // namespace
@@ -128,16 +142,14 @@ std::string describe_formats() {
 
 Log read_log(const std::vector<std::string>& paths, const std::string& name, const BagOptions& bag) {
   if (paths.empty()) throw InputError("no log file named");
-  const bool look = name == "auto";
-  if (name == kBag || (look && looks_like_bag(paths.front()))) return read_one_bag(paths, bag);
-  const Format& format = !look                             ? format_named(name)
-                         : fs::is_directory(paths.front()) ? format_of_folder(paths.front())
-                                                           : format_of_lines(Source{paths.front()});
-  if (format.gather != nullptr) return read(format, format.gather(paths));
-  std::vector<Source> sources;
-  for (const std::string& path : paths) sources.push_back({path});
-  return read(format, sources);
+  if (name == kBag || (name == "auto" && looks_like_bag(paths.front()))) return read_one_bag(paths, bag);
+  const NamedSources named(paths);
+  const Format& format = format_of(named, name);
+  refuse_bag_options(bag);
+  return read(format, named);
 }
+
+Log read_text_log(const NamedSources& named, const std::string& name) { return read(format_of(named, name), named); }
 
 Log read_log_bytes(const std::string& name, std::span<const std::string_view> files) {
   if (files.empty()) throw InputError("no log file named");

@@ -21,6 +21,10 @@ std::string describe_formats();
 /// when no record of it can be used.
 Log read_log(const std::vector<std::string>& paths, const std::string& format, const BagOptions& bag = {});
 
+class NamedSources;
+/// The same of files that are no bag, already looked at.
+Log read_text_log(const NamedSources& named, const std::string& format);
+
 /// The same from memory: plain text, one span for each file of the log (ring8: poses, then measurements).
 Log read_log_bytes(const std::string& format, std::span<const std::string_view> files);
 

@@ -7,10 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <filesystem>
 #include <limits>
-#include <unordered_map>
 
 #include "error.hpp"
 #include "log/fields.hpp"
@@ -63,8 +61,8 @@ bool looks_like_ring8(const FirstLine& line) {
 }
 
 /// Fields of the first record when it starts with a number, else 0.
-std::size_t numeric_columns(const std::string& path) {
-  LineReader lines(path);
+std::size_t numeric_columns(const Source& source) {
+  LineReader lines(source);
   std::string_view line;
   Tokens tokens;
   double ignored = 0;
@@ -77,20 +75,20 @@ std::size_t numeric_columns(const std::string& path) {
 }
 
 /// The two files of a ring from whatever the user named: the folder, one file, or both in any order.
-std::vector<Source> ring_files(const std::vector<std::string>& paths) {
-  if (paths.size() > 2) throw InputError("format ring8 takes a folder, one file or two files");
-  if (paths.size() == 2) {
+std::vector<Source> ring_files(std::span<const Source> named) {
+  if (named.size() > 2) throw InputError("format ring8 takes a folder, one file or two files");
+  if (named.size() == 2) {
     const bool swapped =
-        fs::path(paths[0]).filename() == kMeasurementsFile || numeric_columns(paths[0]) == kMeasurementFields;
-    return swapped ? std::vector<Source>{{paths[1]}, {paths[0]}} : std::vector<Source>{{paths[0]}, {paths[1]}};
+        fs::path(named[0].name).filename() == kMeasurementsFile || numeric_columns(named[0]) == kMeasurementFields;
+    return swapped ? std::vector<Source>{named[1], named[0]} : std::vector<Source>{named[0], named[1]};
   }
-  const fs::path given = paths.front();
+  const fs::path given = named.front().name;
   const fs::path folder = fs::is_directory(given) ? given : given.parent_path();
-  std::string poses = (folder / kPosesFile).string(), measurements = (folder / kMeasurementsFile).string();
+  Source poses{(folder / kPosesFile).string()}, measurements{(folder / kMeasurementsFile).string()};
   if (!fs::is_directory(given)) {
-    (numeric_columns(given.string()) == kPoseFields ? poses : measurements) = given.string();
+    (numeric_columns(named.front()) == kPoseFields ? poses : measurements) = named.front();
   }
-  return {{poses}, {measurements}};
+  return {poses, measurements};
 }
 
 bool ring_folder(const fs::path& folder) {
@@ -102,28 +100,52 @@ float reading_m(double mm, Log& log) {
   return mm == kNoEcho_mm ? std::numeric_limits<float>::infinity() : range_m(mm / 1000, log);
 }
 
+/// The poses by their time stamps. A stamp may occur twice: first come, first served.
+class Poses8 {
+ public:
+  void add(std::int64_t stamp_ms, const Pose2& pose) { rows_.push_back({stamp_ms, pose}); }
+  void sort() {
+    std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.stamp_ms < b.stamp_ms; });
+  }
+  /// The next pose of that time, if there is one left.
+  const Pose2* take(std::int64_t stamp_ms) {
+    const auto first = std::lower_bound(rows_.begin(), rows_.end(), stamp_ms,
+                                        [](const Row& row, std::int64_t stamp) { return row.stamp_ms < stamp; });
+    if (first == rows_.end()) return nullptr;
+    const auto left = static_cast<std::size_t>(rows_.end() - first);
+    if (first->taken >= left || first[static_cast<std::ptrdiff_t>(first->taken)].stamp_ms != stamp_ms) return nullptr;
+    return &first[static_cast<std::ptrdiff_t>(first->taken++)].pose;
+  }
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+
+ private:
+  struct Row {
+    std::int64_t stamp_ms;
+    Pose2 pose;
+    std::size_t taken = 0;  ///< of the rows with this stamp: counted in the first of them
+  };
+  std::vector<Row> rows_;
+};
+
 void read_ring8(std::span<const Source> sources, Log& log) {
   if (sources.size() != 2) throw InputError("format ring8 needs two files: poses and measurements");
-  std::unordered_map<std::int64_t, std::deque<Pose2>> poses;  // a stamp may occur twice: first come, first served
-  std::size_t pose_rows = 0, matched = 0;
+  Poses8 poses;
+  std::size_t matched = 0;
   for_each_row(sources[0], kPoseFields, log, [&](const std::vector<double>& v) {
-    poses[std::llround(v[0])].push_back({v[1] / 1000, v[2] / 1000, v[3] / 10 * kDeg});
-    ++pose_rows;
+    poses.add(std::llround(v[0]), {v[1] / 1000, v[2] / 1000, v[3] / 10 * kDeg});
   });
+  poses.sort();
   add_sonars(log);
   std::vector<float> ranges(kSonars);
   for_each_row(sources[1], kMeasurementFields, log, [&](const std::vector<double>& v) {
     const std::int64_t stamp_ms = std::llround(v[0]);
-    const auto found = poses.find(stamp_ms);
-    if (found == poses.end() || found->second.empty()) {
-      throw Malformed{"no pose", fmt::format("no pose has the time stamp {}", stamp_ms)};
-    }
+    const Pose2* const pose = poses.take(stamp_ms);
+    if (pose == nullptr) throw Malformed{"no pose", fmt::format("no pose has the time stamp {}", stamp_ms)};
     for (std::size_t i = 0; i < kSonars; ++i) ranges[i] = reading_m(v[1 + i], log);
-    append_cones(log, 0, stamp_ms * 1'000'000, found->second.front(), ranges);
-    found->second.pop_front();
+    append_cones(log, 0, stamp_ms * 1'000'000, *pose, ranges);
     ++matched;
   });
-  if (pose_rows > matched) log.malformed["no measurement"] += pose_rows - matched;
+  if (poses.size() > matched) log.malformed["no measurement"] += poses.size() - matched;
 }
 
 }  // namespace

@@ -41,11 +41,11 @@ void read_roomba12(std::span<const Source> sources, Log& log) {
   add_sensors(log);
   std::vector<float> ranges(kSensors);
   const auto head = [](const Tokens& t, const std::string& where) {
-    for (const char* name : {"x", "y", "heading_angle_degrees"}) required_column(t, name, where);
-    for (std::size_t k = 0; k < kSensors; ++k) {
-      if (required_column(t, fmt::format("sensor_{}", k), where) != 3 + k) {
-        throw InputError(fmt::format("{}:sensor_{}: is not column {}", where, k, 4 + k));
-      }
+    std::vector<std::string> names{"x", "y", "heading_angle_degrees"};
+    for (std::size_t k = 0; k < kSensors; ++k) names.push_back(fmt::format("sensor_{}", k));
+    for (std::size_t at = 0; at < names.size(); ++at) {
+      if (required_column(t, names[at], where) != at)
+        throw InputError(fmt::format("{}:{}: is not column {}", where, names[at], at + 1));
     }
   };
   for_each_table_row(sources.front(), kFields, log, head, [&](const Tokens& t, std::size_t) {

@@ -3,6 +3,8 @@
 // and what is true of them: empty before the true range, occupied at it, unknown behind.
 #pragma once
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "calibrate/statistics.hpp"
@@ -43,8 +45,15 @@ struct Trained {
 /// examples to train on and to judge by.
 [[nodiscard]] Trained train(const Sensor& sensor, const std::vector<Sample>& samples, const TrainOptions& options);
 
-/// Readings and true ranges by sensor, from the CSV of `evigrid cast --truth` or a log that holds true ranges. Without
-/// an echo nothing can be learned: left out. Throws InputError.
-[[nodiscard]] std::vector<std::vector<Sample>> read_samples(const std::string& path);
+/// Readings beside true ranges, and the records that could not be read, as a Log tells them.
+struct Samples {
+  std::vector<std::vector<Sample>> by_sensor;
+  std::map<std::string, std::uint64_t> malformed;
+  std::vector<std::string> warnings;
+};
+
+/// From the CSV of `evigrid cast --truth` or a log that holds true ranges. Without an echo nothing can be learned: left
+/// out. Throws InputError.
+[[nodiscard]] Samples read_samples(const std::string& path);
 
 }  // namespace evigrid::driver

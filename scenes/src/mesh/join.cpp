@@ -17,6 +17,9 @@ namespace {
 using raycast::Point;
 using Node = std::uint32_t;
 constexpr std::uint32_t kNobody = 0xffffffffu;
+/// Every two of the pieces that meet at a node are compared. Outlines meet by twos and fours; a star of thousands stays
+/// as it is.
+constexpr std::size_t kMostMeeting = 256;
 
 Point operator-(Point a, Point b) { return {a.x_m - b.x_m, a.y_m - b.y_m}; }
 double cross(Point a, Point b) { return a.x_m * b.y_m - a.y_m * b.x_m; }
@@ -112,6 +115,7 @@ class Joiner {
     for (std::size_t first = 0, last; first < meets.size(); first = last) {
       const Node n = meets[first].first;
       for (last = first; last < meets.size() && meets[last].first == n;) ++last;
+      if (last - first > kMostMeeting) continue;
       for (std::size_t i = first; i < last; ++i) {
         for (std::size_t j = i + 1; j < last; ++j) {
           Edge &a = edges_[meets[i].second], &b = edges_[meets[j].second];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <set>
 
 #include "evigrid/scenes/scene.hpp"
 
@@ -43,8 +44,8 @@ class HeaderReader {
         has_format = true;
       } else if (keyword == "element") {
         header.elements.push_back(element());
-        const auto same = [&](const PlyElement& e) { return e.name == header.elements.back().name; };
-        if (std::count_if(header.elements.begin(), header.elements.end(), same) > 1) fail("element", "comes twice");
+        if (!element_names_.insert(header.elements.back().name).second) fail("element", "comes twice");
+        property_names_.clear();
       } else if (keyword == "property") {
         if (header.elements.empty()) fail("property", "stands before the first element");
         add_property(header.elements.back());
@@ -110,8 +111,7 @@ class HeaderReader {
     p.type = type();
     p.name = word();
     if (p.name.empty()) fail("property", "has no name");
-    const auto same = [&](const PlyProperty& q) { return q.name == p.name; };
-    if (std::any_of(e.properties.begin(), e.properties.end(), same)) fail("property", p.name + " comes twice");
+    if (!property_names_.insert(p.name).second) fail("property", p.name + " comes twice");
     e.properties.push_back(p);
   }
   [[noreturn]] void fail(std::string_view field, const std::string& message) const {
@@ -119,6 +119,7 @@ class HeaderReader {
   }
 
   std::string_view text_, name_, words_;
+  std::set<std::string> element_names_, property_names_;  // of all elements; of the last one's properties
   std::size_t at_ = 0;
   std::uint64_t line_ = 0;
 };
