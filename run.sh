@@ -6,9 +6,11 @@ cd "$(dirname "$0")"
 source cmake/packages.sh
 evigrid_install "${EVIGRID_PACKAGES[@]}"
 out="${1:-out/room}"
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=OFF -DEVIGRID_BUILD_BENCH=OFF \
-  -DEVIGRID_BUILD_SHARED=OFF -DEVIGRID_BUILD_C=OFF -DEVIGRID_BUILD_PYTHON=OFF >/dev/null
-cmake --build build
+parts=()  # a build folder that is there keeps the parts it was set up with
+[ -f build/CMakeCache.txt ] || parts=(-DEVIGRID_BUILD_TESTS=OFF -DEVIGRID_BUILD_BENCH=OFF
+  -DEVIGRID_BUILD_SHARED=OFF -DEVIGRID_BUILD_C=OFF -DEVIGRID_BUILD_PYTHON=OFF)
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release "${parts[@]}" >/dev/null
+cmake --build build --target evigrid
 mkdir -p "$(dirname "$out")"
 build/evigrid run -o "$out"
 echo "Look at $out/map.png; the figures are in $out/report.json"

@@ -8,7 +8,7 @@
  *
  * Metres, radians, nanoseconds. Cell (x, y) covers [x·c, (x+1)·c) × [y·c, (y+1)·c) of the map frame, c = cell_m; the
  * grid has no origin and no border. Masses are e (empty), o (occupied), u (unknown) and c (conflict that the rule
- * keeps); they add up to 1, a cell never seen is (0, 0, 1, 0).
+ * keeps); they add up to 1 (but for the rule fuzzy, whose e and o are memberships), a cell never seen is (0, 0, 1, 0).
  *
  * One thread at a time may write a map, and no other may read it then; views are read by any number of threads, while
  * the map goes on. */

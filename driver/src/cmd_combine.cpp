@@ -128,7 +128,7 @@ void add_combine(CLI::App& app) {
   command->add_flag(
       "--in-order", args->in_order,
       "more than two sources: one after the other, as a map fuses its readings, for rules with a joint form");
-  command->add_option("--kernel", args->kernel, "auto, scalar, avx2 or avx512; the result is the same")
+  command->add_option("--kernel", args->kernel, "auto, scalar, avx2, avx512 or cuda; the result is the same")
       ->capture_default_str();
   command->add_option("--executor", args->executor, "serial, tbb, openmp or spin; the result is the same")
       ->capture_default_str();

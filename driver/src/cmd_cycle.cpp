@@ -232,8 +232,8 @@ void add_cycle(CLI::App& app) {
   add("--memory-mb", o.memory_mb, "cap of the map, MiB of its tiles")->capture_default_str();
   add("--page-dir", o.page_dir, "beyond that cap, tiles that changed longest ago go to a file in this folder");
   add("--threads", o.threads, "worker threads; 0: as many as the machine has")->capture_default_str();
-  add("--executor", o.executor, "serial, tbb or openmp; the map is the same")->capture_default_str();
-  add("--kernel", o.kernel, "auto, scalar, avx2 or avx512; the map is the same")->capture_default_str();
+  add("--executor", o.executor, "serial, tbb, openmp or spin; the map is the same")->capture_default_str();
+  add("--kernel", o.kernel, "auto, scalar, avx2, avx512 or cuda; the map is the same")->capture_default_str();
   add("-o,--out", o.out_dir, "folder for report.json, cycles.csv and pictures; made when missing");
   add("--json", o.json, "also write the report to this file; - for standard output");
   command->footer(

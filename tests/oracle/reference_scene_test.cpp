@@ -41,7 +41,7 @@ TEST(ReferenceScene, EmbeddedRoomUnderEveryRule) {
     print("embedded room " + std::string(evigrid::name(rule)), d);
     // PCR4 shares the conflict as e : o, so that log-odds add up as under Dempster, and with them what the readings'
     // own masses are off by: li2014 in float is off by 2e-7 of log-odds a reading, and the 98 readings of that cell by
-    // 9e-6 together, which is 2.25e-6 of BetP at 1/2, of the 2.7e-6 measured. Named in README.
+    // 9e-6 together, which is 2.25e-6 of BetP at 1/2, of the 2.7e-6 measured. docs/decisions.md has more.
     // dempster_log: 2.5e-6 at a cell of log-weights near 62 each after 87 updates: like readings round x/v and the step of
     // 2^-23 of the sums alike, 1.4e-7 of log-odds each.
     const bool adds_up = rule == evigrid::Rule::pcr4 || rule == evigrid::Rule::dempster_log;

@@ -70,7 +70,7 @@ bool kernel_available(Kernel) noexcept;
 /// Empty when Kernel::cuda is available, else why not.
 std::string why_no_cuda();
 
-/// Membership in "occupied for planning" of chapter 14, eq. 14.18, from those of empty and of occupied:
+/// Membership in "occupied for planning" (Oriolo et al. 1997; Li, Huang & Dezert 2006, eq. 14.18), from those of empty and of occupied:
 /// 1 − Ψ²(1 − Ω)(1 − ΨΩ)(1 − (1 − Ψ)(1 − Ω)). Never seen is 1.
 [[nodiscard]] double fuzzy_map(double empty, double occupied) noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything a robot includes.
+// Everything a robot includes (but bounded_queue.hpp, for hosts whose scans wait).
 #pragma once
 #include "evigrid/combine.hpp"
 #include "evigrid/executor.hpp"

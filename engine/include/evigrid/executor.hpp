@@ -19,7 +19,10 @@ class Executor {
   /// Largest number of workers that may call a task at the same time; `worker` is below it.
   [[nodiscard]] virtual int concurrency() const noexcept = 0;
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
-  /// Calls task(context, i, worker) once for every i in [0, count) and returns when all are done.
+  /// Calls task(context, i, worker) once for every i in [0, count), in any order and on any threads, no two at a time
+  /// with one `worker`, and returns when all are done; what they wrote is then visible to the caller. A task may throw
+  /// (std::bad_alloc): an executor with threads of its own catches that there and throws it from run(), else the
+  /// process ends. Maps that share an executor may call it at the same time, each from its own thread.
   virtual void run(std::int64_t count, Task task, void* context) = 0;
 };
 

@@ -60,6 +60,7 @@ struct LoadOptions {
 };
 
 /// Written beside, synchronised with the disk, renamed: `path` never holds half a map. Runs on the map's executor.
+/// Throws MapFileError when the file cannot be written.
 void save(const Map&, const std::filesystem::path& path);
 /// The same bytes into a stream. Throws MapFileError when the stream fails.
 void save(const Map&, std::ostream&);
@@ -69,10 +70,12 @@ void save(const Map&, std::ostream&);
 void save(const MapView&, const std::filesystem::path& path, Executor* = nullptr);
 void save(const MapView&, std::ostream&, Executor* = nullptr);
 
+/// Throws MapFileError for what is damaged, not a map, of a newer version, or larger than the cap.
 [[nodiscard]] Map load(const std::filesystem::path& path, const LoadOptions& = {});
 /// @param name what errors call the bytes.
 [[nodiscard]] Map load(std::span<const std::byte>, const LoadOptions& = {}, std::string_view name = "map");
 
+/// Head, header, directory's place and sizes, without the cells. Throws MapFileError.
 [[nodiscard]] MapFileInfo inspect(const std::filesystem::path& path);
 [[nodiscard]] MapFileInfo inspect(std::span<const std::byte>, std::string_view name = "map");
 

@@ -2,6 +2,7 @@
 // Several sources on a cell at once, where that is another result than one after the other; and states that put the
 // redistribution of conflict off until somebody reads. Masses as in combine.hpp.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>

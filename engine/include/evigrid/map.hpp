@@ -90,10 +90,13 @@ class Map {
   Map(Map&&) noexcept;
   Map& operator=(Map&&) noexcept;
 
-  /// Declares a sensor. Throws std::invalid_argument naming every bad field.
+  /// Declares a sensor. Throws std::invalid_argument naming every bad field, a rule that cannot fuse its model, or a
+  /// reach of too many cells.
   SensorId add(const Sensor&);
 
   /// Fuses scans in the order given. A scan that cannot be used is counted in the report; no cell is half updated.
+  /// Throws std::length_error at the memory cap and std::system_error when a page file cannot be written, before any
+  /// cell is changed.
   Report integrate(const Scan&);
   Report integrate(std::span<const Scan>);
 

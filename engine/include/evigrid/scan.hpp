@@ -18,11 +18,11 @@ namespace EVIGRID_API evigrid {
 /// range, −inf = too close, NaN = invalid.
 struct Reading {
   SensorId sensor = 0;
-  std::span<const float> ranges_m;
+  std::span<const float> ranges_m;  ///< read during the call alone
 };
 
 struct Scan {
-  std::int64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;  ///< of any epoch, the same for all scans of a map
   Pose2 T_map_robot{};
   std::span<const Reading> readings;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sensor is declared once: its model with parameters, its mount, aperture, limits and reliability. A sonar is one
-// cone; a laser scanner is one sensor with many beams. Every field, its unit, range and source: engine/src/params/.
+// cone; a laser scanner is one sensor with many beams. Ranges in brackets are what check() accepts. "The book": Li, Huang
+// & Dezert, chapter 14 of Smarandache & Dezert (eds.), Advances and Applications of DSmT for Information Fusion, vol. 2,
+// 2006.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -16,56 +18,58 @@ namespace EVIGRID_API evigrid {
 
 /// hughes1992 (Hughes & Murphy 1992). Distances are linear in (Rmax − d).
 struct Hughes1992 {
-  double r_max_m = 7.62;       ///< range at which belief has fallen to its angular part
-  double max_occupied = 0.98;  ///< largest m(occupied)
-  double tolerance_m = 0.15;   ///< half width of the occupied arc (ours: the paper gives none)
+  double r_max_m = 7.62;       ///< range at which belief has fallen to its angular part, [0.01, 1e4]
+  double max_occupied = 0.98;  ///< largest m(occupied), [0, 1]
+  double tolerance_m = 0.15;   ///< half width of the occupied arc, [1e-4, 10] (ours: the paper gives none)
 };
 
-/// oriolo1997 (Oriolo, Ulivi & Vendittelli 1997, as masses by Asharif et al. 2001). All but kE, kO within what the
-/// literature uses.
+/// oriolo1997 (Oriolo, Ulivi & Vendittelli 1997, as masses by Asharif et al. 2001).
 struct Oriolo1997 {
-  double k_empty = 0.1, k_occupied = 0.5;  ///< largest m(empty), m(occupied)
-  double delta_m = 0.15;                   ///< Δ: half width of the arc
-  double rho_v_m = 1.2;                    ///< ρv: where readings are believed half
+  double k_empty = 0.1, k_occupied = 0.5;  ///< largest m(empty), m(occupied), [1e-6, 1] (Oriolo et al.)
+  double delta_m = 0.15;                   ///< Δ: half width of the arc, [1e-3, 10] (ours, within the literature's)
+  double rho_v_m = 1.2;                    ///< ρv: where readings are believed half, [0, 10] (ours, likewise)
 };
 
-/// li2006 (Li, Huang & Dezert 2006, chapter 14, eq. 14.6–14.10).
+/// li2006 (the book, eq. 14.6–14.10).
 struct Li2006 {
-  double rho_v = 1;                ///< sharpness of m(occupied), larger where there are few objects
-  double epsilon_m = 0.10;         ///< ε: range error (ours)
+  double rho_v = 1;                ///< ρv, 1/m²: sharpness of m(occupied), larger where there are few objects, [0.01, 100]
+  double epsilon_m = 0.10;         ///< ε: range error, [0, 2] (ours)
   bool discount_by_lambda = true;  ///< divide by the sum, then discount by λ; false: as printed, λ cancels
 };
 
-/// probability (chapter 14, eq. 14.11–14.13).
+/// probability (the book, eq. 14.11–14.13).
 struct Probability {
-  double epsilon_m = 0.10;  ///< ε: half width of the arc (ours)
-  double rho_v_m = 1.2;     ///< ρv: where readings are believed half (ours)
+  double epsilon_m = 0.10;  ///< ε: half width of the arc, [1e-3, 10] (ours)
+  double rho_v_m = 1.2;     ///< ρv: where readings are believed half, [0, 10] (ours)
 };
 
-/// fuzzy (chapter 14, eq. 14.15–14.16): memberships.
+/// fuzzy (the book, eq. 14.15–14.16): memberships.
 struct Fuzzy {
-  double k_empty = 0.1, k_occupied = 0.5;  ///< largest memberships
-  double epsilon_m = 0.10;                 ///< ε: half width of the arc (ours)
-  double rho_v_m = 1.2;                    ///< ρv: where readings are believed half (ours)
+  double k_empty = 0.1, k_occupied = 0.5;  ///< largest memberships, [1e-6, 1]
+  double epsilon_m = 0.10;                 ///< ε: half width of the arc, [1e-3, 10] (ours)
+  double rho_v_m = 1.2;                    ///< ρv: where readings are believed half, [0, 10] (ours)
   bool as_printed = false;                 ///< the printed fΩ, occupied where it should be empty
 };
 
 /// moravec1985 (Moravec & Elfes 1985): memberships, that of occupied cancelled by that of empty.
 struct Moravec1985 {
-  double epsilon_m = 0.10;  ///< ε: half width of the arc (ours)
+  double epsilon_m = 0.10;  ///< ε: half width of the arc, [1e-3, 10] (ours)
 };
 
-/// li2014 (Li, Huang, Wang, Dezert 2014, eq. 8–13).
+/// li2014 (Li, Huang, Wang, Dezert 2014, eq. 8–13). The paper's numbers: ρO is in √m, the others have no dimension.
 struct Li2014 {
-  double rho_e = 0.35, rho_o = 0.1, rho_c = 80, rho_i = 10;  ///< dimensionless, of metres
-  double epsilon_ratio = 0.01;                               ///< range error ε as a fraction of R
+  double rho_e = 0.35;          ///< ρE: the Gaussian of empty about the sensor has the width ρE·R, [0.3, 1] (eq. 8)
+  double rho_o = 0.1;           ///< ρO: the Gaussian of occupied about R has the width ρO·√R, [0.02, 1] (eq. 9)
+  double rho_c = 80;            ///< ρC: sharpness of the paradox between the two, [80, 320] (eq. 10)
+  double rho_i = 10;            ///< ρI: slope of unknown behind R, [1, 10] (eq. 11)
+  double epsilon_ratio = 0.01;  ///< range error ε as a fraction of R, [1e-3, 0.01]
 };
 
 /// beam: laser range finder (ours).
 struct Beam {
-  double empty = 0.6, occupied = 0.8;   ///< masses at d = 0; both fall linearly to half at max_range_m
-  double empty_margin_m = 0.15;         ///< empty where d < R − empty_margin_m
-  double occupied_half_width_m = 0.10;  ///< occupied where |d − R| ≤ this
+  double empty = 0.6, occupied = 0.8;   ///< masses at d = 0, [0, 1]; both fall linearly to half at max_range_m
+  double empty_margin_m = 0.15;         ///< empty where d < R − empty_margin_m, [0, 10]
+  double occupied_half_width_m = 0.10;  ///< occupied where |d − R| ≤ this, [0, 10]
 };
 
 /// What several readings of one scan, of sensors with the same policy, are to one another where their cones overlap.
@@ -83,7 +87,7 @@ struct RevisionNetwork;  // evigrid/revision.hpp
 struct Sensor {
   Model model = Model::li2014;
   Pose2 T_robot_sensor{};           ///< mount; a cone looks along its x axis
-  double aperture_rad = 0.4363323;  ///< full opening of a cone (25°); unused by a fan
+  double aperture_rad = 0.4363323;  ///< full opening of a cone (25°), [0.0087, 0.7]; unused by a fan
   double min_range_m = 0.1;         ///< nearer readings are refused and nearer cells are left alone
   double max_range_m = 5.0;         ///< cone: farther readings are refused. fan: they clear up to it
   double no_return_m = 1000.0;      ///< readings at or above it mean "no echo": refused, or cleared on request

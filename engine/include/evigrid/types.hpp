@@ -12,6 +12,7 @@
 
 namespace EVIGRID_API evigrid {
 
+/// Yaw is counter-clockwise from x (REP 103).
 struct Pose2 {
   double x_m = 0, y_m = 0, yaw_rad = 0;
 };
@@ -100,7 +101,7 @@ std::span<const Model> all_models() noexcept;
 /// Empty when the rule can fuse what the model says, else the reason.
 std::string_view why_not_together(Rule, Model) noexcept;
 
-/// Raised when a change alters the bits of a map; part of every report.
+/// Raised when a change alters the bits of a map; in every map file and report.json.
 inline constexpr int kMathsVersion = 3;
 
 }  // namespace evigrid

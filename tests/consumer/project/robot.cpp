@@ -3,6 +3,7 @@
 // sees the installed headers alone, and brings threads of its own.
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <numbers>
 #include <thread>
@@ -19,11 +20,20 @@ class HostThreads final : public evigrid::Executor {
   int concurrency() const noexcept override { return 2; }
   std::string_view name() const noexcept override { return "host"; }
   void run(std::int64_t count, Task task, void* context) override {
-    std::thread other([&] {
-      for (std::int64_t i = 1; i < count; i += 2) task(context, i, 1);
-    });
-    for (std::int64_t i = 0; i < count; i += 2) task(context, i, 0);
+    std::exception_ptr thrown[2];
+    const auto half = [&](int worker) {
+      try {
+        for (std::int64_t i = worker; i < count; i += 2) task(context, i, worker);
+      } catch (...) {
+        thrown[worker] = std::current_exception();
+      }
+    };
+    std::thread other(half, 1);
+    half(0);
     other.join();
+    for (const std::exception_ptr& t : thrown) {
+      if (t) std::rethrow_exception(t);
+    }
   }
 };
 
