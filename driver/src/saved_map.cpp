@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <stdexcept>
+#include <system_error>
 
 #include "error.hpp"
 #include "region_option.hpp"
@@ -27,6 +29,11 @@ SavedMap open_saved_map(const std::string& path, std::shared_ptr<Executor> execu
     return {file.string(), std::move(info), std::move(map), bytes_read};
   } catch (const MapFileError& bad) {
     throw InputError(bad.what());
+  } catch (const std::length_error& full) {
+    throw InputError(fmt::format("{}: {}", file.string(), full.what()));
+  } catch (const std::system_error& disk) {  // of the page file, and where temporary files go
+    throw InputError(
+        fmt::format("{}: it is larger than memory allows and needs a page file: {}", file.string(), disk.what()));
   }
 }
 

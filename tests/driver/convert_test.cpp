@@ -139,5 +139,17 @@ TEST(Convert, WhatWouldBeIgnoredIsRefused) {
   }
 }
 
+TEST(Convert, ALinkIsFollowedAndStays) {
+  const TempDir dir;
+  const std::string out = mapped_drive(dir);
+  dir.write("real.evigrid", "old");
+  std::filesystem::create_symlink(dir.at("real.evigrid"), dir.at("link.evigrid"));
+  ASSERT_EQ(evigrid({"convert", out, "-o", dir.at("link.evigrid")}).code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(dir.at("link.evigrid")));
+  EXPECT_EQ(load(dir.at("real.evigrid")).hash(), load(out + "/map.evigrid").hash());
+  ASSERT_EQ(evigrid({"convert", out, "-o", dir.at("plan.yml")}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(dir.at("plan.yml")));
+}
+
 }  // namespace
 }  // namespace evigrid::driver

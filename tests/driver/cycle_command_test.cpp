@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // evigrid cycle as a user calls it. No assertion looks at how long anything took.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -182,6 +183,15 @@ TEST(Cycle, WhatCannotBeIsRefusedWithItsName) {
   const Ran help = evigrid({"cycle", "--help"});
   EXPECT_EQ(help.code, 0);
   EXPECT_TRUE(contains(help.out, "Examples:"));
+}
+
+TEST(Cycle, ALogIsNotWrittenInADevicesPlace) {
+  const TempDir dir;
+  ASSERT_EQ(::mkfifo(dir.at("pipe").c_str(), 0600), 0);
+  const Ran ran = evigrid(small({"--log", dir.at("pipe")}));
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_NE(ran.err.find("a device or a pipe"), std::string::npos) << ran.err;
+  EXPECT_EQ(dir.names(), std::set<std::string>{"pipe"});
 }
 
 }  // namespace

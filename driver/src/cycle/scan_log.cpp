@@ -49,19 +49,29 @@ std::uint32_t add_crc(std::uint32_t crc, const void* bytes, std::size_t count) {
 
 ScanLogWriter::ScanLogWriter(const std::string& path, const Map& map, std::size_t ranges_per_scan)
     : path_(path), temporary_(fmt::format("{}.tmp-{}", path, ::getpid())), ranges_(ranges_per_scan) {
-  if (std::filesystem::is_directory(path_)) throw InputError(path_ + ": cannot be written: a folder has that name");
+  const auto status = std::filesystem::status(path_);
+  if (std::filesystem::is_directory(status)) throw InputError(path_ + ": cannot be written: a folder has that name");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError(path_ + ": cannot be written: it is a device or a pipe");
   out_.open(temporary_, std::ios::binary);
   std::ostringstream empty_map;
   save(map, empty_map);
   const std::string bytes = empty_map.str();
   const Sizes sizes{static_cast<std::uint32_t>(ranges_), static_cast<std::uint32_t>(bytes.size())};
-  put(kMagic.data(), kMagic.size());
-  put(&sizes, sizeof sizes);
-  put(bytes.data(), bytes.size());
+  try {
+    put(kMagic.data(), kMagic.size());
+    put(&sizes, sizeof sizes);
+    put(bytes.data(), bytes.size());
+  } catch (...) {
+    remove_temporary();
+    throw;
+  }
   record_.resize(sizeof(Head) + ranges_ * sizeof(float));
 }
 
-ScanLogWriter::~ScanLogWriter() {
+ScanLogWriter::~ScanLogWriter() { remove_temporary(); }
+
+void ScanLogWriter::remove_temporary() noexcept {
   std::error_code ignored;
   if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
 }

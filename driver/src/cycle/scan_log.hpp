@@ -28,6 +28,7 @@ class ScanLogWriter {
 
  private:
   void put(const void* bytes, std::size_t count);
+  void remove_temporary() noexcept;
   std::string path_, temporary_;
   std::ofstream out_;
   std::size_t ranges_;

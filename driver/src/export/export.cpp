@@ -31,7 +31,8 @@ void write_map_server(const Exported& what, const ExportOptions& o, OutDir& out,
       render_layers(what.map, what.rect, file.string() + " (--region exports a part)", o.max_image_mb);
   const std::string image = fs::path(file.filename()).replace_extension(".pgm").string();
   out.write(image, pgm(layers, mode, limits));
-  out.write(fs::path(image).replace_extension(".yaml").string(), map_yaml(layers, image, mode, limits));
+  const bool yml = file.extension() == ".yml";  // as it was asked for
+  out.write(fs::path(image).replace_extension(yml ? ".yml" : ".yaml").string(), map_yaml(layers, image, mode, limits));
 }
 
 }  // namespace
