@@ -148,7 +148,13 @@ TEST(CostTiles, HoldWhatTheMapWouldRender) {
   }
   EXPECT_GT(tiles, 0u);
   EXPECT_EQ(costs.at(100000, 0), 255);
+  costs.for_each([&](CellIndex at, const std::uint8_t* bytes) {
+    for (std::int64_t i = 0; i < CostTiles::kSide * CostTiles::kSide; ++i)
+      ASSERT_EQ(bytes[i], costs.at(at.x + i % CostTiles::kSide, at.y + i / CostTiles::kSide)) << i;
+  });
 }
+
+TEST(CostTiles, AnExtentCostsNothing) { EXPECT_LT(CostTiles(1 << 20, 320).memory_bytes(), 1000u); }
 
 TEST(FleetOptions, BadOnesAreNamed) {
   const auto why = [](auto change) -> std::string {

@@ -7,9 +7,7 @@
 namespace evigrid::driver {
 
 CostTiles::CostTiles(std::int64_t side_cells, std::int64_t border_cells)
-    : first_(-((border_cells + kSide - 1) / kSide)),
-      side_((side_cells + kSide - 1) / kSide - 2 * first_),
-      tiles_(static_cast<std::size_t>(side_ * side_)) {}
+    : first_(-((border_cells + kSide - 1) / kSide)), side_((side_cells + kSide - 1) / kSide - 2 * first_) {}
 
 std::size_t CostTiles::index(std::int64_t x, std::int64_t y) const {
   const std::int64_t tx = (x >> 6) - first_, ty = (y >> 6) - first_;
@@ -17,13 +15,13 @@ std::size_t CostTiles::index(std::int64_t x, std::int64_t y) const {
 }
 
 std::uint8_t CostTiles::at(std::int64_t x, std::int64_t y) const {
-  const std::size_t i = index(x, y);
-  if (i == kOutside || !tiles_[i]) return 255;
-  return tiles_[i][static_cast<std::size_t>((y & 63) * kSide + (x & 63))];
+  const auto tile = tiles_.find(index(x, y));
+  return tile == tiles_.end() ? std::uint8_t{255} : tile->second[static_cast<std::size_t>((y & 63) * kSide + (x & 63))];
 }
 
 std::size_t CostTiles::memory_bytes() const {
-  return made_ * static_cast<std::size_t>(kSide * kSide) + tiles_.size() * sizeof(tiles_[0]);
+  return tiles_.size() * (static_cast<std::size_t>(kSide * kSide) + sizeof(*tiles_.begin())) +
+         tiles_.bucket_count() * sizeof(void*);
 }
 
 Rendered CostTiles::update(const Map& map, Executor& executor) {
@@ -31,8 +29,7 @@ Rendered CostTiles::update(const Map& map, Executor& executor) {
   Changes changes = map.changes(version_);
   version_ = changes.version;
   if (changes.cleared) {
-    for (auto& tile : tiles_) tile.reset();
-    made_ = 0;
+    tiles_.clear();
   }
   Rendered out;
   std::erase_if(changes.rects, [&](const CellRect& r) { return index(r.x, r.y) == kOutside; });
@@ -41,7 +38,6 @@ Rendered CostTiles::update(const Map& map, Executor& executor) {
     if (!tile) {
       tile = std::make_unique_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(kSide * kSide));
       std::fill_n(tile.get(), kSide * kSide, std::uint8_t{255});
-      ++made_;
     }
     ++out.tiles;
     out.cells += static_cast<std::uint64_t>(r.width * r.height);
@@ -59,7 +55,7 @@ Rendered CostTiles::update(const Map& map, Executor& executor) {
         for (std::size_t i = begin; i < std::min(begin + kChunk, j.rects.size()); ++i) {
           const CellRect& r = j.rects[i];
           const auto inside = static_cast<std::size_t>((r.y & 63) * kSide + (r.x & 63));
-          const std::span<std::uint8_t> tile(j.costs.tiles_[j.costs.index(r.x, r.y)].get(),
+          const std::span<std::uint8_t> tile(j.costs.tiles_.at(j.costs.index(r.x, r.y)).get(),
                                              static_cast<std::size_t>(kSide * kSide));
           j.map.render(Costmap{}, r, tile.subspan(inside), kSide);
         }

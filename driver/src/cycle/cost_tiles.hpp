@@ -4,7 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
-#include <vector>
+#include <unordered_map>
 
 #include "cycle/cycle_loop.hpp"
 #include "evigrid/executor.hpp"
@@ -21,15 +21,22 @@ class CostTiles {
   Rendered update(const Map& map, Executor& executor);
 
   [[nodiscard]] std::uint8_t at(std::int64_t x, std::int64_t y) const;  ///< 255 where nothing was drawn
+  /// Calls tile(its lower left cell, its rows of kSide bytes) for each that exists, in no order.
+  template <class Tile>
+  void for_each(Tile tile) const {
+    for (const auto& [i, bytes] : tiles_)
+      tile(CellIndex{(static_cast<std::int64_t>(i) % side_ + first_) * kSide,
+                     (static_cast<std::int64_t>(i) / side_ + first_) * kSide},
+           bytes.get());
+  }
   [[nodiscard]] std::size_t memory_bytes() const;
+  static constexpr std::int64_t kSide = 64;
 
  private:
-  static constexpr std::int64_t kSide = 64;
   [[nodiscard]] std::size_t index(std::int64_t x, std::int64_t y) const;  ///< of the tile of a cell, or kOutside
   static constexpr std::size_t kOutside = static_cast<std::size_t>(-1);
   std::int64_t first_, side_;  // in tiles
-  std::vector<std::unique_ptr<std::uint8_t[]>> tiles_;
-  std::size_t made_ = 0;
+  std::unordered_map<std::size_t, std::unique_ptr<std::uint8_t[]>> tiles_;
   std::uint64_t version_ = 0;
 };
 

@@ -46,6 +46,21 @@ Rgb cost_colour(int cost) {
   return {grey, grey, grey};
 }
 
+/// Of the cells under each pixel, row 0 the smallest y: thin walls stay, unknown (-1) is only where nothing is known.
+/// By the tiles that exist: a building has any number of cells.
+std::vector<int> worst_costs(const CostTiles& costs, std::int64_t side, std::int64_t step, int px) {
+  std::vector<int> worst(static_cast<std::size_t>(px) * static_cast<std::size_t>(px), -1);
+  costs.for_each([&](CellIndex at, const std::uint8_t* bytes) {
+    for (std::int64_t i = 0; i < CostTiles::kSide * CostTiles::kSide; ++i) {
+      const std::int64_t x = at.x + i % CostTiles::kSide, y = at.y + i / CostTiles::kSide;
+      if (bytes[i] == 255 || x < 0 || y < 0 || x >= side || y >= side) continue;
+      int& pixel = worst[static_cast<std::size_t>(y / step * px + x / step)];
+      pixel = std::max(pixel, static_cast<int>(bytes[i]));
+    }
+  });
+  return worst;
+}
+
 }  // namespace
 
 Canvas draw_cycles(const FleetTrial& trial) {
@@ -104,17 +119,12 @@ Canvas draw_fleet(const FleetTrial& trial) {
   const int shown = px * scale;
   Canvas canvas(std::max(shown + 2 * kMargin_px, 640), shown + kHead_px + kMargin_px + kLine_px, kPaper);
   draw_head(canvas, {"evigrid cycle: the costmap at the end", summary(trial)});
+  const std::vector<int> worst = worst_costs(trial.costs, side, step, px);
   for (int y = 0; y < px; ++y) {
     for (int x = 0; x < px; ++x) {
-      int worst = -1;  // of the cells that a pixel covers, so that thin walls stay; unknown only when nothing is known
-      for (std::int64_t cy = y * step; cy < std::min((y + 1) * step, side); ++cy) {
-        for (std::int64_t cx = x * step; cx < std::min((x + 1) * step, side); ++cx) {
-          const int cost = trial.costs.at(cx, cy);
-          if (cost != 255) worst = std::max(worst, cost);
-        }
-      }
+      const int cost = worst[static_cast<std::size_t>(y) * static_cast<std::size_t>(px) + static_cast<std::size_t>(x)];
       canvas.rect(kMargin_px + x * scale, kHead_px + (px - 1 - y) * scale, scale, scale,
-                  cost_colour(worst < 0 ? 255 : worst));
+                  cost_colour(cost < 0 ? 255 : cost));
     }
   }
   const double px_per_m = static_cast<double>(scale) / (trial.options.cell_m * static_cast<double>(step));
