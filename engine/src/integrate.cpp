@@ -106,8 +106,12 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   try {
     bin(s.footprints, p.table, p.store, p.admission, p.executor, s.plan);
     copy_what_views_see(s.plan, p.store, p.executor);
-  } catch (...) {  // no room: the scans did not come
+  } catch (...) {  // no room: the scans did not come, and tiles that nothing was ever written to need none
     p.store.now_ns = before_ns;
+    for (const TileWork& w : s.plan.tiles) {
+      if (w.tile != nullptr && w.tile->fresh) p.store.erase(TileIndex(w.at));
+    }
+    s.plan.tiles.clear();
     throw;
   }
   const kernels::RuleArgs rule = args_of(p.params, p.undo);

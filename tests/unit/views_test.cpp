@@ -262,5 +262,31 @@ TEST(Views, ShowTheirTilesWhereTheyLie) {
   }
 }
 
+TEST(Views, AScanThatDoesNotFitBesideThemLeavesNoTilesBehind) {
+  constexpr std::size_t kTile = 64 * 64 * 4 * sizeof(float);  // e, o, u and the sum of conflict
+  Map map({.rule = Rule::dempster, .memory_cap_bytes = 4 * kTile}, make_serial_executor());
+  Sensor s;
+  s.aperture_rad = 0.05;
+  s.max_range_m = 8;
+  const SensorId id = map.add(s);
+  const std::vector<Mass> wall{{0, 0.9f, 0.1f}};
+  map.write({5, 5, 1, 1}, wall, 1);
+  map.write({70, 5, 1, 1}, wall, 1);
+  ASSERT_EQ(map.memory_bytes(), 2 * kTile);
+  const std::uint64_t before = map.hash();
+  std::optional<MapView> view = map.view();
+  const float range_m = 6;
+  const Reading reading{id, {&range_m, 1}};
+  const Scan through_three_tiles{1, {1, 1.6, 0}, {&reading, 1}};
+  // The third tile has room, the copies of the two that the view sees have not.
+  EXPECT_THROW(map.integrate(through_three_tiles), std::length_error);
+  EXPECT_EQ(map.tiles(), 2u);
+  EXPECT_EQ(map.memory_bytes(), 2 * kTile);
+  EXPECT_EQ(map.hash(), before);
+  view.reset();
+  EXPECT_GT(map.integrate(through_three_tiles).cells_updated, 100u);
+  EXPECT_EQ(map.tiles(), 3u);
+}
+
 }  // namespace
 }  // namespace evigrid
