@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -271,6 +272,21 @@ TEST(Life, WhatCannotBeWrittenIsNamedAndChangesNothing) {
   EXPECT_THROW(map.write({0, 0, 400, 65}, much, 400), std::length_error);
   EXPECT_EQ(map.tiles(), 0u);
   EXPECT_EQ(map.version(), 0u);
+}
+
+TEST(Life, AWriteThatDoesNotFitMakesNoTiles) {
+  Map map({.cell_m = 0.1, .memory_cap_bytes = 4 * kTileBytes}, make_serial_executor());
+  const std::vector<Mass> row(3 * 64, Mass{1, 0, 0});
+  map.write({0, 0, 2 * 64, 1}, row, 2 * 64);
+  const std::uint64_t version = map.version();
+  std::optional<MapView> view = map.view();  // two tiles to be copied and a new one, beside the two that the view holds
+  EXPECT_THROW(map.write({0, 0, 3 * 64, 1}, row, 3 * 64), std::length_error);
+  EXPECT_EQ(map.tiles(), 2u);
+  EXPECT_EQ(map.memory_bytes(), 2 * kTileBytes);
+  EXPECT_EQ(map.version(), version);
+  view.reset();
+  map.write({0, 0, 3 * 64, 1}, row, 3 * 64);
+  EXPECT_EQ(map.tiles(), 3u);
 }
 
 TEST(Life, TwoToTheFortyCellsAreThereAndCostNothing) {

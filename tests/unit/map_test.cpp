@@ -207,10 +207,17 @@ TEST(Map, HashSeesOneBitAndNotTheTiles) {
 
 TEST(Map, PlacesThatNoCellHasAreAnsweredByTheFarthest) {
   const Map map({.cell_m = 0.05}, make_serial_executor());
-  const std::int64_t far = std::int64_t{1} << 60;
+  const std::int64_t far = std::int64_t{1} << 61;
   EXPECT_EQ(map.cell_at(1e300, -1e300), (CellIndex{far, -far}));
   EXPECT_EQ(map.cell_at(std::nan(""), 0.12), (CellIndex{-far, 2}));
   EXPECT_EQ(map.mass(map.cell_at(std::nan(""), 1e300)), Mass{});
+}
+
+TEST(Map, WhatIsNoPlaceHasNothingEvenInAMapThatReachesToTheEnd) {
+  Map map({.cell_m = 0.05}, make_serial_executor());
+  const std::int64_t end = -(std::int64_t{1} << 60);
+  map.write({end, end, 1, 1}, std::vector<Mass>{{1, 0, 0}}, 1);
+  EXPECT_EQ(map.mass(map.cell_at(std::nan(""), std::nan(""))), Mass{});
 }
 
 }  // namespace

@@ -144,6 +144,25 @@ TEST(Merge, MapsThatForgetSayWhatTheySayNow) {
   EXPECT_GT(now.e + now.o, 0.1f);
 }
 
+TEST(Merge, ProtectedCellsThatHadFadedAwayKeepWhatIsMergedIntoThem) {
+  const MapParams params{.rule = Rule::dempster, .decay_s = 1};
+  Map into(params, make_serial_executor()), from(params, make_serial_executor());
+  const SensorId id = into.add({});
+  const float range_m = 2;
+  const Reading reading{id, {&range_m, 1}};
+  into.integrate(Scan{0, {}, {&reading, 1}});
+  const CellIndex c = into.cell_at(1, 0);
+  ASSERT_GT(into.mass(c).e, 0.5f);
+  into.advance_to(200'000'000'000);  // two hundred times tau: nothing is left to freeze
+  ASSERT_EQ(into.mass(c), Mass{});
+  into.protect({c.x, c.y, 1, 1});
+  from.write({c.x, c.y, 1, 1}, std::vector<Mass>{{0.5f, 0, 0.5f}}, 1);
+  merge(into, from.view());
+  EXPECT_EQ(into.mass(c).e, 0.5f);
+  into.advance_to(300'000'000'000);
+  EXPECT_EQ(into.mass(c).e, 0.5f);
+}
+
 TEST(Merge, ManyMapsInTheirOrderAndViewsStay) {
   const auto d = testing::drive(Model::li2014, 24, 6);
   const MapParams params{.rule = Rule::pcr5};

@@ -116,7 +116,7 @@ class Map {
   [[nodiscard]] float conflict(CellIndex) const noexcept;       ///< running sum of k, 0 without the plane
   [[nodiscard]] float con(CellIndex) const noexcept;            ///< −Σ ln(1 − k), 0 without the plane
   [[nodiscard]] float last_conflict(CellIndex) const noexcept;  ///< k of the last update, 0 without the plane
-  /// Points beyond ±2^60 cells are answered by ±2^60, NaN by −2^60: no map has cells there.
+  /// Points beyond ±2^61 cells are answered by ±2^61, NaN by −2^61: nothing can be written there.
   [[nodiscard]] CellIndex cell_at(double x_m, double y_m) const noexcept;
 
   /// Smallest box around all non-vacuous cells.

@@ -70,7 +70,7 @@ std::uint64_t two(float low, float high) noexcept {
 }  // namespace
 
 CellIndex cell_of(double x_m, double y_m, double cell_m) noexcept {
-  constexpr auto kMost = static_cast<double>(kFarthestCell);
+  constexpr auto kMost = static_cast<double>(2 * kFarthestCell);  // a map may have cells at kFarthestCell itself
   const auto index = [&](double v) {  // fmax: NaN gives the other
     return static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(v / cell_m, -kMost), kMost)));
   };

@@ -67,7 +67,7 @@ std::string header_of(const MapOrView& map) {
 template <class MapOrView>
 void write_map(const MapOrView& map, Executor& executor, std::string_view name, const Sink& sink) {
   const std::string text = header_of(map);
-  if (text.size() > io::kMaxHeaderBytes) throw MapFileError(name, "too many sensors for a map file");
+  if (text.size() > io::kMaxHeaderBytes) throw MapFileError(name, "too many sensors or protected areas for a map file");
   const auto text_bytes = std::as_bytes(std::span(text));
   io::Bytes head;
   head.put_raw(io::kMagic);

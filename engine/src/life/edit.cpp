@@ -130,12 +130,13 @@ void write(const Grid& g, CellRect rect, const std::function<const Mass*(std::in
   g.store.begin_operation();
   const TileRect tiles = tiles_of(rect);
   std::vector<TileIndex> at;
-  std::size_t missing = 0;
+  std::size_t room = 0;  // of tiles to be made and to be copied: a write that does not fit must not leave the former
   for (std::int64_t y = tiles.first.y; y <= tiles.last.y; ++y) {
     for (std::int64_t x = tiles.first.x; x <= tiles.last.x; ++x) {
       const TileIndex t{y, x};
       if (Tile* const there = g.store.find(t)) {
         g.store.pin(*there);
+        room += static_cast<std::size_t>(g.store.seen(*there));
       } else {  // made only for what is known
         const CellRect part = part_in(rect, t);
         bool any = false;
@@ -146,12 +147,12 @@ void write(const Grid& g, CellRect rect, const std::function<const Mass*(std::in
           }
         }
         if (!any) continue;
-        ++missing;
+        ++room;
       }
       at.push_back(t);
     }
   }
-  g.store.reserve(missing);
+  g.store.reserve(room);
   std::vector<Tile*> all;
   for (const TileIndex t : at) all.push_back(&g.store.get_or_make(t));
   own_all(g.store, all);

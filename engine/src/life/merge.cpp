@@ -122,18 +122,19 @@ class TileMerge {
   [[nodiscard]] Mass present(const Tile& tile, int i) const noexcept {
     return read_cell(into_, {tile.index.x * kSide + i % kSide, tile.index.y * kSide + i / kSide}).mass;
   }
-  /// Protected cells are not forgotten, whatever comes to them.
   [[nodiscard]] bool is_guarded(const Tile& tile, int i) const noexcept {
     const std::int64_t x = tile.index.x * kSide + i % kSide, y = tile.index.y * kSide + i / kSide;
     return std::any_of(guarded_.begin(), guarded_.end(), [&](const CellRect& r) {
       return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height;
     });
   }
-  /// A cell that was joined is as of now, and is forgotten as fast as before, or as fast as where it came from.
+  /// A cell that was joined is as of now, and is forgotten as fast as before, or as fast as where it came from. A
+  /// protected one is not forgotten, not even where it still had an age: one of which nothing was left to freeze.
   void renew(const Tile& tile, int i, float* cell) const noexcept {
     if (into_.layout().age < 0) return;
+    if (is_guarded(tile, i)) return set_age(into_.layout(), cell, {});
     CellAge age = age_of(into_.layout(), cell);
-    if (age.tau_s == 0 && from_.layout().age >= 0 && !is_guarded(tile, i)) {
+    if (age.tau_s == 0 && from_.layout().age >= 0) {
       const CellIndex at = cell_of_tile(tile.index, i);
       age.tau_s =
           age_of(from_.layout(), from_.cells_of(tile_of(at.x, at.y)) +
