@@ -96,6 +96,7 @@ void merge_maps(const Args& args) {
   if (!args.json.empty() && args.json != "-") require_writable(args.json);
   SavedMap first = open_saved_map(args.maps[0], executor);
   Map& into = first.map;
+  into.set_window({});  // the whole of both, whatever the first one was driven with
   Json steps = Json::array();
   Progress progress("merging");
   for (std::size_t i = 0; i < parts.size(); ++i) {

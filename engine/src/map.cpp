@@ -124,8 +124,8 @@ std::uint64_t Map::hash() const { return hash_cells(impl_->store); }
 MapView Map::view() {
   Impl& m = *impl_;
   auto catalog = m.cataloguer.bring_up_to_date(m.store, m.changes);
-  return MapView(std::make_shared<const ViewState>(m.store, std::move(catalog),
-                                                   ViewState::Facts{m.params, m.sensors, m.changes.losses(), m.admission}));
+  return MapView(std::make_shared<const ViewState>(
+      m.store, std::move(catalog), ViewState::Facts{m.params, m.sensors, m.changes.losses(), m.admission}));
 }
 
 void Map::page_to(const std::filesystem::path& directory) { impl_->store.page_to(directory); }

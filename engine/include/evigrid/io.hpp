@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A map in a file, bit for bit: parameters, sensors, last stamp, window, protected areas and every plane of every tile.
-// A loaded map goes on fusing as if it had never been saved. Little-endian, versioned, checksummed block by block; docs/map_file.md has the
-// layout. Damage is always an error, never another map.
+// A loaded map goes on fusing as if it had never been saved. Little-endian, versioned, checksummed block by block;
+// docs/map_file.md has the layout. Damage is always an error, never another map.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -40,7 +40,7 @@ struct MapFileInfo {
   std::optional<std::int64_t> last_stamp_ns;
   std::optional<CellRect> window;         ///< Map::set_window, widened to whole tiles
   std::vector<CellRect> protected_areas;  ///< Map::protect
-  std::uint64_t hash = 0;  ///< Map::hash() when it was saved
+  std::uint64_t hash = 0;                 ///< Map::hash() when it was saved
   std::uint64_t tiles = 0, file_bytes = 0, memory_bytes = 0;
 };
 
