@@ -18,6 +18,7 @@ namespace {
 
 using namespace evigrid;
 using Clock = std::chrono::steady_clock;
+double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
 void dense(kernels::Device& device) {
   constexpr std::size_t kPairs = std::size_t{1} << 26;
@@ -49,7 +50,28 @@ void dense(kernels::Device& device) {
   }
 }
 
-/// `robots` rings of 24 sonars strewn over a square of `side` cells, a scan each.
+/// Costs of all that changed, as a planner keeps them: tile by tile, by all threads.
+void render_changes(const Map& map, std::uint64_t since, Executor& executor, std::vector<std::uint8_t>& out) {
+  constexpr std::size_t kTile = 64 * 64;
+  const Changes changes = map.changes(since);
+  out.resize(changes.rects.size() * kTile);
+  struct All {
+    const Map& map;
+    const std::vector<CellRect>& rects;
+    std::uint8_t* out;
+  } all{map, changes.rects, out.data()};
+  executor.run(
+      static_cast<std::int64_t>(changes.rects.size()),
+      [](void* context, std::int64_t i, int) {
+        const All& a = *static_cast<const All*>(context);
+        const auto n = static_cast<std::size_t>(i);
+        a.map.render(Costmap{}, a.rects[n], std::span(a.out + n * kTile, kTile), 64);
+      },
+      &all);
+}
+
+/// `robots` rings of 24 sonars strewn over a square of `side` cells, a scan each. Cells stay on the device from batch
+/// to batch; the costs of what changed are asked for each time, the cells once, at the end.
 void fleet(int robots, int side, Model model, Rule rule, bool on_device) {
   Map map({.rule = rule,
            .kernel = on_device ? Kernel::cuda : Kernel::automatic,
@@ -67,7 +89,9 @@ void fleet(int robots, int side, Model model, Rule rule, bool on_device) {
   std::vector<float> ranges(static_cast<std::size_t>(robots) * 24);
   std::vector<Reading> readings(ranges.size());
   std::vector<Scan> scans(static_cast<std::size_t>(robots));
-  double whole = 1e9, fuse = 1e9, back = 0, up = 0;
+  const auto executor = make_tbb_executor();
+  std::vector<std::uint8_t> costs;
+  double whole = 1e9, fuse = 1e9, up = 0, render = 1e9;
   std::uint64_t cells = 0;
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
@@ -81,25 +105,33 @@ void fleet(int robots, int side, Model model, Rule rule, bool on_device) {
       scans[i].stamp_ns = round;
       scans[i].readings = std::span(readings).subspan(i * 24, 24);
     }
+    const std::uint64_t version = map.version();
     const auto begin = Clock::now();
     const Report r = map.integrate(scans);
-    const double s = std::chrono::duration<double>(Clock::now() - begin).count();
+    const auto fused = Clock::now();
+    render_changes(map, version, *executor, costs);
+    const double s = seconds(fused - begin), costs_s = seconds(Clock::now() - fused);
     if (round < 2) continue;  // tiles are made and sent
+    render = std::min(render, costs_s);
     cells = r.cells_updated;
     if (s < whole) {
       whole = s;
       if (on_device && MapAccess::device(map) != nullptr) {
         const kernels::DeviceTimes t = MapAccess::device(map)->device().times();
-        fuse = t.fuse_s, back = t.download_s, up = t.upload_s;
+        fuse = t.fuse_s, up = t.upload_s;
       }
     }
   }
-  std::printf("fleet %5d robots, grid %5d, %s + %s, %s: %6.1f M cells in %6.2f ms", robots, side,
+  const auto before_home = Clock::now();
+  (void)map.view();
+  const double home = seconds(Clock::now() - before_home);
+  std::printf("fleet %5d robots, grid %5d, %s + %s, %s: %6.1f M cells fused in %6.2f ms, costs %6.2f ms", robots, side,
               std::string(name(model)).c_str(), std::string(name(rule)).c_str(), std::string(map.kernel_name()).c_str(),
-              1e-6 * static_cast<double>(cells), 1e3 * whole);
+              1e-6 * static_cast<double>(cells), 1e3 * whole, 1e3 * render);
   if (on_device)
-    std::printf("; kernels %6.2f ms = %5.2f Gcell/s, up %.2f, back %.2f ms %s", 1e3 * fuse,
-                1e-9 * static_cast<double>(cells) / fuse, 1e3 * up, 1e3 * back, std::string(map.kernel_note()).c_str());
+    std::printf("; kernels %6.2f ms = %5.2f Gcell/s, up %.2f ms; %zu tiles home in %.2f ms %s", 1e3 * fuse,
+                1e-9 * static_cast<double>(cells) / fuse, 1e3 * up, map.tiles(), 1e3 * home,
+                std::string(map.kernel_note()).c_str());
   std::printf("; hash %016llx\n", static_cast<unsigned long long>(map.hash()));
 }
 

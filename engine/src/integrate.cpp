@@ -5,6 +5,7 @@
 #include "integrate.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "device/device_map.hpp"
 #include "kernels/row/portable_math.hpp"
@@ -63,23 +64,41 @@ void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) 
       &batch);
 }
 
-/// False where there is no device, and when it fails: the map then goes on without it, and says why.
-bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) {
+/// What the device alone knows comes home, and the map goes on without it.
+void give_up(const Pipeline& p, const kernels::DeviceError& failed, bool cells_lost) {
+  if (cells_lost && (*p.device)->any_away())
+    throw std::runtime_error(std::string("the device was lost with cells that it alone knew, the map is not whole: ") +
+                             failed.what());
+  (*p.device)->come_home(p.store, p.executor);
+  *p.note = std::string(failed.what()) + "; the map goes on on the processor";
+  p.device->reset();
+  for (auto& [at, tile] : p.store.tiles()) tile.on_device = nullptr;
+}
+
+/// Whether the device is to fuse the batch; if not, all cells are on the host.
+bool for_device(const Pipeline& p) {
   if (p.device == nullptr || !*p.device) return false;
-  if (const std::string_view why = not_by_device(p); !why.empty()) {
-    *p.note = why;
-    return false;
-  }
+  const std::string_view why = not_by_device(p);
+  // Protected cells are kept and put back on the host, and cold tiles are written to a file from there.
+  const bool host_looks_on = !p.admission.guarded.empty() || p.store.pages();
+  if (host_looks_on || !why.empty()) (*p.device)->come_home(p.store, p.executor);
+  *p.note = why;
+  return why.empty();
+}
+
+/// False when the device fails: the map then goes on without it, and says why.
+bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) {
   try {
     s.stats.push_back((*p.device)->fuse(p, s, rule));
-    p.note->clear();
-    return true;
+  } catch (const kernels::DeviceLost& lost) {
+    give_up(p, lost, true);
+    return false;
   } catch (const kernels::DeviceError& failed) {
-    *p.note = std::string(failed.what()) + "; the map goes on on the processor";
-    p.device->reset();
-    for (auto& [at, tile] : p.store.tiles()) tile.on_device = nullptr;
+    give_up(p, failed, false);
     return false;
   }
+  if (!p.admission.guarded.empty() || p.store.pages()) (*p.device)->come_home(p.store, p.executor);
+  return true;
 }
 
 }  // namespace
@@ -117,8 +136,9 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   const kernels::RuleArgs rule = args_of(p.params, p.undo);
   s.stats.clear();
   {
+    const bool by_device = for_device(p);
     const Shield shield(s.plan, p.admission, p.store);
-    if (!fused_by_device(p, s, rule)) fuse_regions(p, s, rule);
+    if (!by_device || !fused_by_device(p, s, rule)) fuse_regions(p, s, rule);
   }
   for (const kernels::Stats& region : s.stats) {
     report.cells_updated += region.cells;

@@ -53,7 +53,32 @@ struct Map::Impl {
     return {params,           *table,    compiled, store,   changes,     *executor,
             tiles_per_worker, admission, false,    &device, &kernel_note};
   }
-  [[nodiscard]] Grid grid() noexcept { return {params, store, changes}; }
+  // Cells that a device alone knows come home to who reads them, or changes them on the host.
+  [[nodiscard]] const TileStore& whole() {
+    if (device) device->come_home(store, nullptr);
+    return store;
+  }
+  [[nodiscard]] const TileStore& part(const CellRect& rect) {
+    if (!device || !device->any_away() || rect.empty() || !is_near(rect)) return store;
+    const TileRect tiles = tiles_of(rect);
+    device->come_home(store, &tiles);
+    return store;
+  }
+  [[nodiscard]] CellState cell(CellIndex c) { return read_cell(part({c.x, c.y, 1, 1}), c); }
+  [[nodiscard]] TileStore& to_be_changed() {
+    if (device) device->come_home(store, *executor);
+    return store;
+  }
+  [[nodiscard]] Grid grid() { return {params, to_be_changed(), changes}; }
+
+  template <class T>
+  void render(const kernels::CostArgs& args, CellRect rect, std::span<T> out, std::ptrdiff_t stride) {
+    if (device && device->any_away()) {
+      if (const auto known = device->costs(store, args))
+        return render_costmap(store, args, rect, out, stride, known.get());
+    }
+    render_costmap(part(rect), args, rect, out, stride);
+  }
 };
 
 Map::Map(const MapParams& params, std::shared_ptr<Executor> executor) {
@@ -101,34 +126,34 @@ void Map::advance_to(std::int64_t stamp_ns) noexcept {
   if (impl_->params.decay_s > 0 && stamp_ns > impl_->store.now_ns) impl_->store.now_ns = stamp_ns;
 }
 
-Mass Map::mass(CellIndex c) const noexcept { return read_cell(impl_->store, c).mass; }
-float Map::conflict(CellIndex c) const noexcept { return read_cell(impl_->store, c).conflict; }
-float Map::con(CellIndex c) const noexcept { return read_cell(impl_->store, c).con; }
-float Map::last_conflict(CellIndex c) const noexcept { return read_cell(impl_->store, c).last_conflict; }
+Mass Map::mass(CellIndex c) const { return impl_->cell(c).mass; }
+float Map::conflict(CellIndex c) const { return impl_->cell(c).conflict; }
+float Map::con(CellIndex c) const { return impl_->cell(c).con; }
+float Map::last_conflict(CellIndex c) const { return impl_->cell(c).last_conflict; }
 CellIndex Map::cell_at(double x_m, double y_m) const noexcept { return cell_of(x_m, y_m, impl_->params.cell_m); }
-CellRect Map::bounds() const { return occupied_bounds(impl_->store); }
+CellRect Map::bounds() const { return occupied_bounds(impl_->whole()); }
 void Map::render(Layer layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride,
                  const ReadOutParams& params) const {
-  render_layer(impl_->store, layer, params, rect, out, stride);
+  render_layer(impl_->part(rect), layer, params, rect, out, stride);
 }
 void Map::render(const Costmap& c, CellRect rect, std::span<std::int8_t> out, std::ptrdiff_t stride) const {
-  render_costmap(impl_->store, c, rect, out, stride);
+  impl_->render(occupancy_args(c), rect, out, stride);
 }
 void Map::render(const Costmap& c, CellRect rect, std::span<std::uint8_t> out, std::ptrdiff_t stride) const {
-  render_costmap(impl_->store, c, rect, out, stride);
+  impl_->render(cost_args(c), rect, out, stride);
 }
 std::uint64_t Map::version() const noexcept { return impl_->changes.version(); }
 Changes Map::changes(std::uint64_t since) const { return impl_->changes.since(since); }
-std::uint64_t Map::hash() const { return hash_cells(impl_->store); }
+std::uint64_t Map::hash() const { return hash_cells(impl_->whole()); }
 
 MapView Map::view() {
   Impl& m = *impl_;
-  auto catalog = m.cataloguer.bring_up_to_date(m.store, m.changes);
+  auto catalog = m.cataloguer.bring_up_to_date(m.to_be_changed(), m.changes);
   return MapView(std::make_shared<const ViewState>(
       m.store, std::move(catalog), ViewState::Facts{m.params, m.sensors, m.changes.losses(), m.admission}));
 }
 
-void Map::page_to(const std::filesystem::path& directory) { impl_->store.page_to(directory); }
+void Map::page_to(const std::filesystem::path& directory) { impl_->to_be_changed().page_to(directory); }
 std::size_t Map::paged_bytes() const noexcept { return impl_->store.paged_bytes(); }
 
 void Map::clear() {
@@ -145,7 +170,7 @@ void Map::set_window(CellRect window) {
   impl_->admission.window.reset();
   if (window.empty()) return;
   impl_->admission.window = tiles_of(window);
-  drop_outside(impl_->grid(), *impl_->admission.window);
+  drop_outside({impl_->params, impl_->store, impl_->changes}, *impl_->admission.window);  // which reads no cell
 }
 void Map::protect(CellRect area) {
   require_near("protect", area);
@@ -172,8 +197,8 @@ std::span<const std::uint64_t> Map::tiles_per_worker() const noexcept { return i
 std::size_t Map::tiles() const noexcept { return impl_->store.size(); }
 std::size_t Map::memory_bytes() const noexcept { return impl_->store.bytes(); }
 
-const TileSource& MapAccess::source(const Map& m) noexcept { return m.impl_->store; }
-TileStore& MapAccess::store(Map& m) noexcept { return m.impl_->store; }
+const TileSource& MapAccess::source(const Map& m) { return m.impl_->whole(); }
+TileStore& MapAccess::store(Map& m) { return m.impl_->to_be_changed(); }
 ChangeLog& MapAccess::changes(Map& m) noexcept { return m.impl_->changes; }
 Admission& MapAccess::admission(Map& m) noexcept { return m.impl_->admission; }
 const Admission& MapAccess::admission(const Map& m) noexcept { return m.impl_->admission; }

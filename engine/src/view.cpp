@@ -18,10 +18,10 @@ void MapView::render(Layer layer, CellRect rect, std::span<float> out, std::ptrd
   render_layer(*state_, layer, params, rect, out, stride);
 }
 void MapView::render(const Costmap& c, CellRect rect, std::span<std::int8_t> out, std::ptrdiff_t stride) const {
-  render_costmap(*state_, c, rect, out, stride);
+  render_costmap(*state_, occupancy_args(c), rect, out, stride);
 }
 void MapView::render(const Costmap& c, CellRect rect, std::span<std::uint8_t> out, std::ptrdiff_t stride) const {
-  render_costmap(*state_, c, rect, out, stride);
+  render_costmap(*state_, cost_args(c), rect, out, stride);
 }
 std::uint64_t MapView::hash() const { return hash_cells(*state_); }
 const MapParams& MapView::params() const noexcept { return state_->facts().params; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The CUDA device. Plain allocations, every call checked. A batch goes up in one block of pinned memory; kernels run on
-// one stream; updated tiles are gathered and come back on another, piece by piece, while the host takes the first ones.
+// one stream. Cells that the host asks for are gathered and come back on another, piece by piece, while the host takes
+// the first ones.
 #include <algorithm>
 #include <cstring>
 #include <vector>
@@ -15,7 +16,7 @@ namespace {
 using device::DeviceCounts;
 
 /// Copies tiles: one block each, `many` side by side on one end, by pointers on the other.
-__global__ void gather_tiles(float* const* tiles, float4* many, unsigned vectors) {
+__global__ void gather_tiles(const float* const* tiles, float4* many, unsigned vectors) {
   const auto* from = reinterpret_cast<const float4*>(tiles[blockIdx.x]);
   float4* to = many + static_cast<std::size_t>(blockIdx.x) * vectors;
   for (unsigned i = threadIdx.x; i < vectors; i += blockDim.x) to[i] = from[i];
@@ -24,6 +25,12 @@ __global__ void scatter_tiles(float* const* tiles, const float4* many, unsigned 
   auto* to = reinterpret_cast<float4*>(tiles[blockIdx.x]);
   const float4* from = many + static_cast<std::size_t>(blockIdx.x) * vectors;
   for (unsigned i = threadIdx.x; i < vectors; i += blockDim.x) to[i] = from[i];
+}
+
+/// A block a tile, a thread a micro-tile.
+__global__ void tile_costs(const CostArgs args, const float* const* tiles, int planes, std::uint8_t* out) {
+  device::costs_of_micro(args, tiles[blockIdx.x], planes, static_cast<int>(threadIdx.x),
+                         out + static_cast<std::size_t>(blockIdx.x) * kTileSide * kTileSide);
 }
 
 class Stream {
@@ -112,40 +119,64 @@ class Cuda final : public Device {
 
   DeviceResult fuse(const DeviceBatch& b) override {
     const std::size_t floats = static_cast<std::size_t>(kTileSide * kTileSide * b.planes);
-    upload(b, floats);
-    device::LaunchArgs l = args_;
-    started_.record(work_);
-    for (const DeviceRun& run : b.runs) {
-      l.parts = args_.parts + run.first_part;
-      l.part_count = run.parts;
-      if (run.parts == 0) continue;
-      table_.of(b.rule, run.model, b.age >= 0)(l);
-      cuda_check(cudaGetLastError(), "launch");
-    }
-    fused_.record(work_);
-    // Counts and masks first: they say what else is to come back.
     const std::size_t tiles = b.tiles.size();
     auto* const counts = counts_host_.room<DeviceCounts>(1);
     auto* const reached = reached_host_.room<unsigned long long>(tiles);
-    cuda_check(cudaMemcpyAsync(counts, args_.counts, sizeof *counts, cudaMemcpyDeviceToHost, work_), "counts");
-    cuda_check(cudaMemcpyAsync(reached, args_.reached, tiles * sizeof *reached, cudaMemcpyDeviceToHost, work_),
-               "masks");
-    cuda_check(cudaStreamSynchronize(work_), "fusion");
-    times_.upload_s = started_.since(sent_);
-    times_.fuse_s = fused_.since(started_);
+    reached_.resize(tiles);
+    upload(b, floats);
+    try {
+      run(b, *counts, reached);
+    } catch (const DeviceError& failed) {  // some of its kernels may have run
+      throw DeviceLost(failed.what());
+    }
     DeviceResult out;
     float most = 0;
     std::memcpy(&most, &counts->max_k_bits, sizeof most);
     out.stats = {counts->cells, counts->totals, most};
-    reached_.assign(reached, reached + tiles);
+    std::copy_n(reached, tiles, reached_.begin());
     out.reached = reached_;
-    out.cells = send_back(b, floats);
     return out;
+  }
+
+  const float* fetch(std::span<const float* const> tiles, std::size_t floats) override {
+    coming_ = tiles.size();
+    pieces_ = (coming_ + kPiece - 1) / kPiece;
+    if (coming_ == 0) return nullptr;
+    while (piece_done_.size() < pieces_) piece_done_.push_back(std::make_unique<CudaEvent>());
+    auto* const host = back_host_.room<float>(coming_ * floats);
+    auto* const gathered = back_device_.room<float>(coming_ * floats);
+    const float* const* const list = list_of(tiles);
+    fetching_.record(back_stream_);
+    for (std::size_t i = 0; i < pieces_; ++i) {
+      const std::size_t first = i * kPiece, n = std::min(kPiece, coming_ - first);
+      gather_tiles<<<static_cast<unsigned>(n), 256, 0, back_stream_>>>(
+          list + first, reinterpret_cast<float4*>(gathered + first * floats), static_cast<unsigned>(floats / 4));
+      cuda_check(cudaGetLastError(), "launch");
+      cuda_check(cudaMemcpyAsync(host + first * floats, gathered + first * floats, n * floats * sizeof(float),
+                                 cudaMemcpyDeviceToHost, back_stream_),
+                 "download");
+      piece_done_[i]->record(back_stream_);
+    }
+    return host;
   }
 
   void arrived(std::size_t tiles) override {
     if (tiles > 0) piece_done_[std::min((tiles - 1) / kPiece, pieces_ - 1)]->wait();
-    if (tiles == coming_ && tiles > 0) times_.download_s = piece_done_[pieces_ - 1]->since(fused_);
+    if (tiles == coming_ && tiles > 0) times_.download_s = piece_done_[pieces_ - 1]->since(fetching_);
+  }
+
+  const std::uint8_t* costs(const CostArgs& args, std::span<const float* const> tiles, int planes) override {
+    static_assert(kMicrosPerTile <= 1024, "a thread a micro-tile");
+    if (tiles.empty()) return nullptr;
+    const std::size_t bytes = tiles.size() * kTileSide * kTileSide;
+    auto* const host = costs_host_.room<std::uint8_t>(bytes);
+    auto* const there = costs_device_.room<std::uint8_t>(bytes);
+    const float* const* const list = list_of(tiles);
+    tile_costs<<<static_cast<unsigned>(tiles.size()), kMicrosPerTile, 0, back_stream_>>>(args, list, planes, there);
+    cuda_check(cudaGetLastError(), "launch");
+    cuda_check(cudaMemcpyAsync(host, there, bytes, cudaMemcpyDeviceToHost, back_stream_), "download");
+    cuda_check(cudaStreamSynchronize(back_stream_), "costs");
+    return host;
   }
 
   std::uint64_t combine(int rule, const DensePlanes& p, std::size_t n) override {
@@ -248,45 +279,44 @@ class Cuda final : public Device {
     cuda_check(cudaMemsetAsync(args_.reached, 0, b.tiles.size() * sizeof(unsigned long long), work_), "masks");
   }
 
-  const float* send_back(const DeviceBatch& b, std::size_t floats) {
-    updated_.clear();
-    for (std::size_t i = 0; i < b.tiles.size(); ++i) {
-      if (reached_[i] != 0) updated_.push_back(b.tiles[i].cells);
-    }
-    coming_ = updated_.size();
-    pieces_ = (coming_ + kPiece - 1) / kPiece;
-    if (coming_ == 0) return nullptr;
-    while (piece_done_.size() < pieces_) piece_done_.push_back(std::make_unique<CudaEvent>());
-    float* const host = back_host_.room<float>(coming_ * floats);
-    float* const gathered = back_device_.room<float>(coming_ * floats);
-    auto** const list = list_host_.room<float*>(coming_);
-    auto** const list_there = list_device_.room<float*>(coming_);
-    std::copy(updated_.begin(), updated_.end(), list);
-    cuda_check(cudaMemcpyAsync(list_there, list, coming_ * sizeof(float*), cudaMemcpyHostToDevice, back_stream_),
-               "list");
-    for (std::size_t i = 0; i < pieces_; ++i) {
-      const std::size_t first = i * kPiece, n = std::min(kPiece, coming_ - first);
-      gather_tiles<<<static_cast<unsigned>(n), 256, 0, back_stream_>>>(
-          list_there + first, reinterpret_cast<float4*>(gathered + first * floats), static_cast<unsigned>(floats / 4));
+  /// Launches what the upload prepared, and waits for the counts.
+  void run(const DeviceBatch& b, DeviceCounts& counts, unsigned long long* reached) {
+    device::LaunchArgs l = args_;
+    started_.record(work_);
+    for (const DeviceRun& r : b.runs) {
+      l.parts = args_.parts + r.first_part;
+      l.part_count = r.parts;
+      if (r.parts == 0) continue;
+      table_.of(b.rule, r.model, b.age >= 0)(l);
       cuda_check(cudaGetLastError(), "launch");
-      cuda_check(cudaMemcpyAsync(host + first * floats, gathered + first * floats, n * floats * sizeof(float),
-                                 cudaMemcpyDeviceToHost, back_stream_),
-                 "download");
-      piece_done_[i]->record(back_stream_);
     }
-    return host;
+    fused_.record(work_);
+    cuda_check(cudaMemcpyAsync(&counts, args_.counts, sizeof counts, cudaMemcpyDeviceToHost, work_), "counts");
+    cuda_check(cudaMemcpyAsync(reached, args_.reached, b.tiles.size() * sizeof *reached, cudaMemcpyDeviceToHost, work_),
+               "masks");
+    cuda_check(cudaStreamSynchronize(work_), "fusion");
+    times_.upload_s = started_.since(sent_);
+    times_.fuse_s = fused_.since(started_);
+  }
+
+  /// Where tiles lie, to be read by kernels of the way back.
+  const float* const* list_of(std::span<const float* const> tiles) {
+    auto** const list = list_host_.room<const float*>(tiles.size());
+    auto** const there = list_device_.room<const float*>(tiles.size());
+    std::copy(tiles.begin(), tiles.end(), list);
+    cuda_check(cudaMemcpyAsync(there, list, tiles.size_bytes(), cudaMemcpyHostToDevice, back_stream_), "list");
+    return there;
   }
 
   std::string name_;
   device::DeviceTable table_;
   Stream work_, back_stream_;
-  CudaEvent sent_, started_, fused_, back_;
+  CudaEvent sent_, started_, fused_, fetching_, back_;
   Parcel parcel_;
   device::LaunchArgs args_{};
-  CudaBuffer<false> counts_, masks_, arrays_, back_device_, list_device_;
-  CudaBuffer<true> counts_host_, reached_host_, back_host_, list_host_;
+  CudaBuffer<false> counts_, masks_, arrays_, back_device_, list_device_, costs_device_;
+  CudaBuffer<true> counts_host_, reached_host_, back_host_, list_host_, costs_host_;
   std::vector<std::uint64_t> reached_;
-  std::vector<float*> updated_;
   std::vector<std::unique_ptr<CudaEvent>> piece_done_;
   std::size_t coming_ = 0, pieces_ = 0;
   std::vector<void*> slabs_;

@@ -14,9 +14,14 @@
 
 namespace evigrid::kernels {
 
-/// Out of memory, or the device failed; the message says what. Nothing that the caller holds has been changed.
+/// Out of memory, or the device failed; the message says what. No cell has been changed, neither on the host nor on the
+/// device.
 struct DeviceError : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+/// The device failed while it wrote to cells: those of the batch's tiles are undefined there.
+struct DeviceLost : DeviceError {
+  using DeviceError::DeviceError;
 };
 
 /// A tile of the batch, and where its cells are on the device.
@@ -61,10 +66,10 @@ struct DeviceBatch {
 struct DeviceResult {
   Stats stats;
   std::span<const std::uint64_t> reached;  // a tile: bit 8·y + x of its 8 × 8 blocks in which a cell was updated
-  const float* cells = nullptr;            // the tiles that were updated, one after the other in the batch's order
 };
 
-/// Seconds of the device's last call by its own clock, where it has one; fuse_s is the kernels' alone.
+/// Seconds by the device's own clock, where it has one: of the last batch, its kernels alone in fuse_s; of what was
+/// last fetched.
 struct DeviceTimes {
   double upload_s = 0, fuse_s = 0, download_s = 0;
 };
@@ -77,10 +82,16 @@ class Device {
   virtual float* take(std::size_t bytes) = 0;
   /// Gives all room back.
   virtual void release() noexcept = 0;
-  /// Fuses a batch. The updated tiles are still on their way when it returns.
+  /// Fuses a batch; the cells stay on the device. Throws DeviceError, DeviceLost.
   virtual DeviceResult fuse(const DeviceBatch&) = 0;
-  /// Waits until the first `tiles` of them have arrived in DeviceResult::cells. Throws DeviceError.
+  /// Sends cells of the device home: tiles of so many floats, one after the other. They are still on their way when it
+  /// returns. Throws DeviceError.
+  virtual const float* fetch(std::span<const float* const> tiles, std::size_t floats) = 0;
+  /// Waits until the first `tiles` of them have arrived. Throws DeviceError.
   virtual void arrived(std::size_t tiles) = 0;
+  /// Costs of the cells of these tiles, whose first planes are e, o and u without c: kTileSide rows of kTileSide bytes
+  /// a tile, as KernelTable::render_costs makes them. Throws DeviceError.
+  virtual const std::uint8_t* costs(const CostArgs&, std::span<const float* const> tiles, int planes) = 0;
   /// C = A ⊕ B by a rule of the batch call, arrays of the host; the number of total conflicts.
   virtual std::uint64_t combine(int rule, const DensePlanes&, std::size_t n) = 0;
   /// Bytes read and written a second by the device's own copy of `bytes`; 0 where it cannot tell.

@@ -56,6 +56,20 @@ EVIGRID_FN float offset_from(std::int64_t cell, std::int64_t index, float fracti
   return static_cast<float>(static_cast<double>(cell - index) - static_cast<double>(fraction));
 }
 
+/// What KernelTable::render_costs makes of a cell (kernels/row/render_costs.hpp).
+EVIGRID_FN std::uint8_t cost_of_cell(const CostArgs& c, float o, float u) {
+  const float betp = o + 0.5f * u, between = (betp - c.free_below) * c.slope + 1.5f;
+  const float cost = betp > c.lethal_above ? c.lethal : betp < c.free_below ? 0.0f : between;
+  return static_cast<std::uint8_t>(static_cast<int>(u > c.max_unknown ? c.none : cost));
+}
+/// One micro-tile of a tile, as bytes in four rows of the tile's.
+EVIGRID_FN void costs_of_micro(const CostArgs& c, const float* tile, int planes, int micro, std::uint8_t* out) {
+  const float* const o = tile + (micro * planes + 1) * kMicroCells;
+  std::uint8_t* const to = out + micro / kMicrosPerSide * kMicroSide * kTileSide + micro % kMicrosPerSide * kMicroSide;
+  for (int cell = 0; cell < kMicroCells; ++cell)
+    to[cell / kMicroSide * kTileSide + cell % kMicroSide] = cost_of_cell(c, o[cell], o[kMicroCells + cell]);
+}
+
 inline constexpr float kHalfDiagonal = 10.7f;  // of the cell centres of a square, with room for rounding
 
 /// False only where no cell of the square can be in the cone.
@@ -192,6 +206,14 @@ struct OwnCell {
   }
 };
 
+/// False only where the cell at this offset from the apex is not in the cone: floats and a margin far above their
+/// rounding. Most cells of a square are none of the cone's, and need no double then.
+EVIGRID_FN bool may_lie_in(const ConeReading& q, float x, float y) {
+  const float d2 = mul_add(x, x, y * y), room = mul_add(1e-5f, magnitude(x) + magnitude(y), 1e-2f);
+  return mul_add(q.ly, x, -(q.lx * y)) >= -room && mul_add(q.rx, y, -(q.ry * x)) >= -room &&
+         d2 <= (q.outer + room) * (q.outer + room) && (q.inner <= room || d2 >= (q.inner - room) * (q.inner - room));
+}
+
 template <class Model, class State, bool kForgets>
 EVIGRID_FN void fuse_one(OwnCell<State, kForgets>& own, const ConeReading& q, const Square16& at, const Place& place,
                          const DeviceBatchArgs& a) {
@@ -199,6 +221,7 @@ EVIGRID_FN void fuse_one(OwnCell<State, kForgets>& own, const ConeReading& q, co
   constexpr Paradox kParadox = paradox_of<State>();
   const float x = offset_from(at.x + place.micro_x * kMicroSide, q.i0, q.fx),
               y = offset_from(at.y + place.micro_y * kMicroSide, q.j0, q.fy);
+  if (!may_lie_in(q, x + Lanes::column(place.cell), y + Lanes::row(place.cell))) return;
   ConeLanes lanes;
   FirstCells first;
   lanes.set(q, 0, place.cell);

@@ -98,13 +98,23 @@ class Emulated final : public Device {
     for (const DeviceRun& run : b.runs) {
       table_.of(b.rule, run.model, b.age >= 0)({b, run, stats, reached_.data()});
     }
+    return {stats, reached_};
+  }
+  const float* fetch(std::span<const float* const> tiles, std::size_t floats) override {
     cells_.clear();
-    for (std::size_t i = 0; i < b.tiles.size(); ++i) {
-      if (reached_[i] != 0) cells_.insert(cells_.end(), b.tiles[i].cells, b.tiles[i].cells + floats);
-    }
-    return {stats, reached_, cells_.data()};
+    for (const float* tile : tiles) cells_.insert(cells_.end(), tile, tile + floats);
+    return cells_.data();
   }
   void arrived(std::size_t) override {}
+  const std::uint8_t* costs(const CostArgs& args, std::span<const float* const> tiles, int planes) override {
+    costs_.resize(tiles.size() * kTileSide * kTileSide);
+    std::uint8_t* to = costs_.data();
+    for (const float* tile : tiles) {
+      for (int micro = 0; micro < kMicrosPerTile; ++micro) emulated::costs_of_micro(args, tile, planes, micro, to);
+      to += kTileSide * kTileSide;
+    }
+    return costs_.data();
+  }
   std::uint64_t combine(int rule, const DensePlanes& p, std::size_t n) override {
     std::uint64_t totals = 0;
     for (std::size_t i = 0; i < n; ++i) totals += dense_.cell[rule](p, i);
@@ -117,6 +127,7 @@ class Emulated final : public Device {
   std::deque<std::vector<float>> memory_;
   std::vector<std::uint64_t> reached_;
   std::vector<float> cells_;
+  std::vector<std::uint8_t> costs_;
 };
 
 }  // namespace

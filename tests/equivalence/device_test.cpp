@@ -180,7 +180,13 @@ class Failing final : public kernels::Device {
     if (left_-- <= 0) throw kernels::DeviceError("CUDA: memory for tiles: out of memory");
     return real_->fuse(b);
   }
-  void arrived(std::size_t) override {}
+  const float* fetch(std::span<const float* const> tiles, std::size_t floats) override {
+    return real_->fetch(tiles, floats);
+  }
+  void arrived(std::size_t tiles) override { real_->arrived(tiles); }
+  const std::uint8_t* costs(const kernels::CostArgs& args, std::span<const float* const> tiles, int planes) override {
+    return real_->costs(args, tiles, planes);
+  }
   std::uint64_t combine(int, const kernels::DensePlanes&, std::size_t) override { return 0; }
 
  private:

@@ -112,10 +112,12 @@ class Map {
   /// sight.
   void advance_to(std::int64_t stamp_ns) noexcept;
 
-  [[nodiscard]] Mass mass(CellIndex) const noexcept;            ///< vacuous where nothing was seen
-  [[nodiscard]] float conflict(CellIndex) const noexcept;       ///< running sum of k, 0 without the plane
-  [[nodiscard]] float con(CellIndex) const noexcept;            ///< −Σ ln(1 − k), 0 without the plane
-  [[nodiscard]] float last_conflict(CellIndex) const noexcept;  ///< k of the last update, 0 without the plane
+  // Reading cells. Any number of threads may do so at once while nothing changes the map. Throws nothing but what is
+  // said, and std::runtime_error where the map is a GPU's and that was lost with cells of which the host has no copy.
+  [[nodiscard]] Mass mass(CellIndex) const;            ///< vacuous where nothing was seen
+  [[nodiscard]] float conflict(CellIndex) const;       ///< running sum of k, 0 without the plane
+  [[nodiscard]] float con(CellIndex) const;            ///< −Σ ln(1 − k), 0 without the plane
+  [[nodiscard]] float last_conflict(CellIndex) const;  ///< k of the last update, 0 without the plane
   /// Points beyond ±2^61 cells are answered by ±2^61, NaN by −2^61: nothing can be written there.
   [[nodiscard]] CellIndex cell_at(double x_m, double y_m) const noexcept;
 

@@ -2,11 +2,20 @@
 #include "device/device_map.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <numeric>
+#include <utility>
 
 #include "rule_kernels.hpp"
 
 namespace evigrid {
+
+void DeviceMap::forget() noexcept {
+  device_->release();
+  taken_ = 0;
+  away_.clear();
+  rendered_.clear();
+  any_away_.store(false, std::memory_order_release);
+}
 
 void DeviceMap::list_runs(const MapParams& params, const Scratch& s) {
   run_of_.clear(), place_of_.clear(), cones_.clear(), fans_.clear(), runs_.clear();
@@ -27,41 +36,63 @@ void DeviceMap::list_runs(const MapParams& params, const Scratch& s) {
   }
 }
 
-void DeviceMap::list_parts(const Plan& plan) {
-  entries_.clear(), parts_.clear(), reaches_.clear();
-  for (std::size_t region = 0; region < plan.regions(); ++region) {  // a tile's readings lie in one region, in order
-    for (const Reach& r : plan.region(region))
-      entries_.push_back({run_of_[r.footprint], r.tile, place_of_[r.footprint]});
+/// The readings of a region's tiles, tile by tile: a part is what one run has for one tile. A tile's readings lie in
+/// one region, in their order.
+void DeviceMap::list_region(const Plan& plan, std::size_t region) {
+  const std::span<const Reach> all = plan.region(region);
+  RegionParts& out = of_region_[region];
+  out.parts.clear();
+  if (all.empty()) return;
+  const auto by_tile = [](const Reach& a, const Reach& b) { return a.tile < b.tile; };
+  const auto [lowest, highest] = std::minmax_element(all.begin(), all.end(), by_tile);
+  const std::uint32_t first_tile = lowest->tile, tiles = highest->tile - first_tile + 1;
+  std::vector<std::uint32_t>& end = out.end_of_tile;
+  end.assign(tiles + 1, 0);
+  for (const Reach& r : all) ++end[r.tile - first_tile + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::uint32_t* const sorted = reaches_.data() + plan.region_begin[region];
+  for (const Reach& r : all) sorted[end[r.tile - first_tile]++] = r.footprint;
+  for (std::uint32_t tile = 0, i = 0; tile < tiles; ++tile) {
+    while (i < end[tile]) {
+      const std::uint32_t run = run_of_[sorted[i]], first = i;
+      for (; i < end[tile] && run_of_[sorted[i]] == run; ++i) sorted[i] = place_of_[sorted[i]];
+      out.parts.push_back({run, {first_tile + tile, plan.region_begin[region] + first, i - first}});
+    }
   }
-  if (runs_.size() == 1) {  // by tile, counted
-    std::vector<std::uint32_t>& next = reaches_;
-    next.assign(plan.tiles.size() + 1, 0);
-    for (const Entry& e : entries_) ++next[e.tile + 1];
-    for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-    sorted_.resize(entries_.size());
-    for (const Entry& e : entries_) sorted_[next[e.tile]++] = e;
-    entries_.swap(sorted_);
-    reaches_.clear();
-  } else {
-    std::stable_sort(entries_.begin(), entries_.end(),
-                     [](const Entry& a, const Entry& b) { return a.run != b.run ? a.run < b.run : a.tile < b.tile; });
+}
+
+void DeviceMap::list_parts(const Plan& plan, Executor& executor) {
+  reaches_.resize(plan.reaches.size());
+  if (of_region_.size() < plan.regions()) of_region_.resize(plan.regions());
+  struct All {
+    DeviceMap& map;
+    const Plan& plan;
+  } all{*this, plan};
+  executor.run(
+      static_cast<std::int64_t>(plan.regions()),
+      [](void* context, std::int64_t region, int) {
+        const All& a = *static_cast<const All*>(context);
+        a.map.list_region(a.plan, static_cast<std::size_t>(region));
+      },
+      &all);
+  const std::span<const RegionParts> regions = std::span(of_region_).first(plan.regions());
+  for (const RegionParts& r : regions) {
+    for (const RegionParts::Part& part : r.parts) ++runs_[part.run].parts;
   }
-  for (std::size_t i = 0; i < entries_.size();) {
-    std::size_t end = i;
-    const Entry& first = entries_[i];
-    for (; end < entries_.size() && entries_[end].run == first.run && entries_[end].tile == first.tile; ++end)
-      reaches_.push_back(entries_[end].reading);
-    kernels::DeviceRun& run = runs_[first.run];
-    if (run.parts == 0) run.first_part = static_cast<std::uint32_t>(parts_.size());
-    ++run.parts;
-    parts_.push_back({first.tile, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(end - i)});
-    i = end;
+  std::uint32_t parts = 0;
+  for (kernels::DeviceRun& run : runs_) run.first_part = std::exchange(parts, parts + run.parts);
+  next_part_.clear();
+  for (const kernels::DeviceRun& run : runs_) next_part_.push_back(run.first_part);
+  parts_.resize(parts);
+  for (const RegionParts& r : regions) {
+    for (const RegionParts::Part& part : r.parts) parts_[next_part_[part.run]++] = part.part;
   }
 }
 
 void DeviceMap::list_tiles(const Pipeline& p, const Plan& plan) {
   constexpr std::size_t kFew = 1024;
   if (taken_ > 2 * p.store.size() + kFew) {  // tiles that were erased left their room behind
+    come_home(p.store, p.executor);
     device_->release();
     taken_ = 0;
     for (auto& [at, tile] : p.store.tiles()) tile.on_device = nullptr;
@@ -74,61 +105,32 @@ void DeviceMap::list_tiles(const Pipeline& p, const Plan& plan) {
       tile.on_device = device_->take(p.store.tile_bytes());
       ++taken_;
     }
-    tile.device_version = kNoVersion;  // until the batch has come back
+    tile.device_version = kNoVersion;  // until the batch is done
     tiles_.push_back({w.at.x, w.at.y, tile.on_device, current ? nullptr : tile.cells});
   }
 }
 
-void DeviceMap::take_back(const Pipeline& p, Plan& plan, const kernels::DeviceResult& result) {
-  constexpr std::size_t kPiece = 256;
-  updated_.clear();
+void DeviceMap::mark(const Pipeline& p, Plan& plan, const kernels::DeviceResult& result) {
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
-    if (result.reached[i] != 0) {
-      updated_.push_back(i);
-    } else {
-      plan.tiles[i].tile->device_version = plan.tiles[i].tile->buffer->marks.last;
-    }
-  }
-  struct Piece {
-    const std::size_t* updated;
-    Plan& plan;
-    const float* from;
-    std::size_t bytes;
-    std::vector<std::uint64_t>& tiles_per_worker;
-  };
-  for (std::size_t first = 0; first < updated_.size(); first += kPiece) {
-    const std::size_t n = std::min(kPiece, updated_.size() - first);
-    try {
-      device_->arrived(first + n);
-    } catch (const kernels::DeviceError& lost) {
-      throw std::runtime_error(
-          std::string("the device was lost while the map's tiles came back, the map is not whole: ") + lost.what());
-    }
-    Piece piece{updated_.data() + first, plan, result.cells + first * p.store.tile_bytes() / sizeof(float),
-                p.store.tile_bytes(), p.tiles_per_worker};
-    p.executor.run(
-        static_cast<std::int64_t>(n),
-        [](void* context, std::int64_t index, int worker) {
-          const Piece& c = *static_cast<Piece*>(context);
-          const auto i = static_cast<std::size_t>(index);
-          ++c.tiles_per_worker[static_cast<std::size_t>(worker)];
-          std::memcpy(c.plan.tiles[c.updated[i]].tile->cells, c.from + i * c.bytes / sizeof(float), c.bytes);
-        },
-        &piece);
-  }
-  for (const std::size_t i : updated_) {
     TileWork& w = plan.tiles[i];
+    Tile& tile = *w.tile;
     w.reached = result.reached[i];
-    w.touched = true;
-    w.tile->buffer->marks.mark(w.reached, p.changes.next());
-    w.tile->device_version = w.tile->buffer->marks.last;
+    w.touched = w.reached != 0;
+    if (w.touched) {
+      tile.buffer->marks.mark(w.reached, p.changes.next());
+      if (!tile.away) away_.push_back(tile.index);
+      tile.away = true;
+    }
+    tile.device_version = tile.buffer->marks.last;
   }
+  any_away_.store(!away_.empty(), std::memory_order_release);
+  ++batches_;
 }
 
 kernels::Stats DeviceMap::fuse(const Pipeline& p, Scratch& s, const kernels::RuleArgs& args) {
   if (s.footprints.empty() || s.plan.tiles.empty()) return {};
   list_runs(p.params, s);
-  list_parts(s.plan);
+  list_parts(s.plan, p.executor);
   list_tiles(p, s.plan);
   kernels::DeviceBatch batch;
   batch.rule = kernel_of(p.params.rule);
@@ -145,7 +147,7 @@ kernels::Stats DeviceMap::fuse(const Pipeline& p, Scratch& s, const kernels::Rul
   batch.parts = parts_;
   batch.reaches = reaches_;
   const kernels::DeviceResult result = device_->fuse(batch);
-  take_back(p, s.plan, result);
+  mark(p, s.plan, result);
   return result.stats;
 }
 

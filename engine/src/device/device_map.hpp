@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A map's tiles on a device. They stay there from batch to batch; the host's tiles are brought up to date after each,
-// so that whoever reads the map never waits for a device. A tile that anyone else changed since is sent again.
+// A map's tiles on a device. They stay there from batch to batch. What a batch changes is known to the device alone
+// until someone on the host reads it: such a tile is away, and comes home when it is asked for. Costs of tiles that are
+// away are made there, a sixteenth of the bytes. A tile that anyone else changed since is sent again.
 #pragma once
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "grid/admission.hpp"
+#include "grid/tile_costs.hpp"
 #include "integrate.hpp"
 #include "kernels/device/device.hpp"
 #include "scratch.hpp"
@@ -18,37 +23,65 @@ class DeviceMap {
   [[nodiscard]] kernels::Device& device() noexcept { return *device_; }
 
   /// The store was cleared.
-  void forget() noexcept {
-    device_->release();
-    taken_ = 0;
-  }
+  void forget() noexcept;
 
   /// The readings of the plan, as the regions' tasks would fuse and mark them. Throws kernels::DeviceError before
-  /// anything has changed, std::runtime_error when the device was lost while tiles came back.
+  /// anything has changed, kernels::DeviceLost when the tiles of the batch are undefined on the device, and
+  /// std::runtime_error as come_home().
   kernels::Stats fuse(const Pipeline&, Scratch&, const kernels::RuleArgs&);
 
+  /// Whether there may be tiles that are away.
+  [[nodiscard]] bool any_away() const noexcept { return any_away_.load(std::memory_order_acquire); }
+  /// For readers, any number at once: the tiles of `part` come home, or all. By the calling thread alone, which may be
+  /// a task of the map's executor. Throws std::runtime_error when the device was lost: the map is not whole then.
+  void come_home(TileStore&, const TileRect* part);
+  /// For who is about to change cells on the host: all tiles, by all threads. Throws as above.
+  void come_home(TileStore&, Executor&);
+  /// For readers, any number at once: the costs of all that is away. Null where only the host can tell; then the tiles
+  /// must come home.
+  std::shared_ptr<const TileCosts> costs(TileStore&, const kernels::CostArgs&);
+
  private:
+  struct RenderedCosts {
+    kernels::CostArgs args;
+    std::shared_ptr<TileCosts> tiles;
+    std::uint64_t batch = 0;  // after so many batches they were complete
+  };
   void list_runs(const MapParams&, const Scratch&);
-  void list_parts(const Plan&);
+  void list_region(const Plan&, std::size_t region);
+  void list_parts(const Plan&, Executor&);
   void list_tiles(const Pipeline&, const Plan&);
-  void take_back(const Pipeline&, Plan&, const kernels::DeviceResult&);
+  void mark(const Pipeline&, Plan&, const kernels::DeviceResult&);
+  void copy_home(TileStore&, const TileRect*, Executor*);
+  void render(const TileStore&, RenderedCosts&);
 
   std::unique_ptr<kernels::Device> device_;
   std::size_t taken_ = 0;  // tiles of the device
+  std::uint64_t batches_ = 0;
+  // Between readers.
+  std::mutex mutex_;
+  std::atomic<bool> any_away_ = false;
+  std::vector<TileIndex> away_;  // and some that were dropped since
+  std::vector<RenderedCosts> rendered_;
   // Of a batch; kept for their memory.
-  struct Entry {
-    std::uint32_t run, tile, reading;
+  struct RegionParts {
+    struct Part {
+      std::uint32_t run;
+      kernels::DevicePart part;
+    };
+    std::vector<Part> parts;
+    std::vector<std::uint32_t> end_of_tile;
   };
   std::vector<std::uint32_t> run_of_, place_of_;  // by footprint: its run, its place among the cones or the fans
   std::vector<const kernels::ConeReading*> cones_;
   std::vector<const kernels::Fan*> fans_;
   std::vector<kernels::ReadingAge> cone_ages_, fan_ages_;
-  std::vector<Entry> entries_, sorted_;
+  std::vector<RegionParts> of_region_;
   std::vector<kernels::DeviceRun> runs_;
+  std::vector<std::uint32_t> next_part_;
   std::vector<kernels::DevicePart> parts_;
   std::vector<std::uint32_t> reaches_;
   std::vector<kernels::DeviceTile> tiles_;
-  std::vector<std::size_t> updated_;
 };
 
 }  // namespace evigrid

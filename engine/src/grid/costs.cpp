@@ -21,8 +21,6 @@ CostArgs args_of(const Costmap& c, int none, int lethal, int most) {
       static_cast<float>(c.max_unknown), ordered ? static_cast<float>((most - 1) / (c.lethal_above - c.free_below)) : 0,
       static_cast<float>(none),          static_cast<float>(lethal)};
 }
-CostArgs occupancy(const Costmap& c) { return args_of(c, -1, 100, 99); }
-CostArgs costs(const Costmap& c) { return args_of(c, 255, 254, 252); }
 
 /// Of one cell. Selections: with -fno-trapping-math (engine/CMakeLists.txt) a loop over a micro-tile becomes vectors.
 int cost(const CostArgs& a, float e, float o, float u, float c) noexcept {
@@ -32,6 +30,9 @@ int cost(const CostArgs& a, float e, float o, float u, float c) noexcept {
   const float cost = betp > a.lethal_above ? a.lethal : betp < a.free_below ? 0.0f : between;
   return static_cast<int>(u > a.max_unknown ? a.none : cost);
 }
+
+CostArgs occupancy(const Costmap& c) { return args_of(c, -1, 100, 99); }
+CostArgs costs(const Costmap& c) { return args_of(c, 255, 254, 252); }
 
 void require_ordered(const Costmap& c) {
   if (!(c.free_below >= 0 && c.free_below < c.lethal_above && c.lethal_above <= 1))
@@ -62,10 +63,17 @@ void closed_tile(const TileSource& store, const CostArgs& a, const float* cells,
 }
 
 template <class T>
-void render_costs(const TileSource& store, const CostArgs& a, CellRect rect, std::span<T> out, std::ptrdiff_t stride) {
+void render_costs(const TileSource& store, const CostArgs& a, CellRect rect, std::span<T> out, std::ptrdiff_t stride,
+                  const TileCosts* known) {
   static_assert(sizeof(T) == 1);
   const T never_seen = static_cast<T>(cost(a, 0, 0, 1, 0));
   fill(store, rect, out, stride, never_seen, [&](const float* cells, const CellRect& part, T* to) {
+    if (const std::uint8_t* costs = known == nullptr ? nullptr : known->of(tile_of(part.x, part.y))) {
+      costs += (part.y & 63) * kSide + (part.x & 63);
+      for (std::int64_t y = 0; y < part.height; ++y)
+        std::memcpy(to + y * stride, costs + y * kSide, static_cast<std::size_t>(part.width));
+      return;
+    }
     if (store.layout().render_costs != nullptr) return closed_tile(store, a, cells, part, to, stride);
     fill_tile(store, cells, part, to, stride, [&](const Micro& m, T* values) {
       int of_cell[kCells];  // apart from the output, which as bytes might be anything
@@ -84,15 +92,22 @@ std::uint8_t cost_of(const Costmap& c, const Mass& m) noexcept {
   return static_cast<std::uint8_t>(cost(costs(c), m.e, m.o, m.u, m.c));
 }
 
-void render_costmap(const TileSource& store, const Costmap& c, CellRect rect, std::span<std::int8_t> out,
-                    std::ptrdiff_t stride) {
+kernels::CostArgs occupancy_args(const Costmap& c) {
   require_ordered(c);
-  render_costs(store, occupancy(c), rect, out, stride);
+  return occupancy(c);
 }
-void render_costmap(const TileSource& store, const Costmap& c, CellRect rect, std::span<std::uint8_t> out,
-                    std::ptrdiff_t stride) {
+kernels::CostArgs cost_args(const Costmap& c) {
   require_ordered(c);
-  render_costs(store, costs(c), rect, out, stride);
+  return costs(c);
+}
+
+void render_costmap(const TileSource& store, const CostArgs& a, CellRect rect, std::span<std::int8_t> out,
+                    std::ptrdiff_t stride, const TileCosts* known) {
+  render_costs(store, a, rect, out, stride, known);
+}
+void render_costmap(const TileSource& store, const CostArgs& a, CellRect rect, std::span<std::uint8_t> out,
+                    std::ptrdiff_t stride, const TileCosts* known) {
+  render_costs(store, a, rect, out, stride, known);
 }
 
 }  // namespace evigrid

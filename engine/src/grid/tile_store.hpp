@@ -30,6 +30,7 @@ struct Tile {
   Tile *newer = nullptr, *older = nullptr;  // change_log.hpp: chain by the last change
   float* on_device = nullptr;               // device/device_map.hpp: its cells there, those of that version
   std::uint64_t device_version = kNoVersion;
+  bool away = false;  // and nowhere else: `cells` are older
 };
 
 class TileStore final : public TileSource {

@@ -16,9 +16,10 @@ struct Pipeline;
 struct Scratch;
 
 struct MapAccess {
-  static const TileSource& source(const Map&) noexcept;
+  /// With all cells at hand: what a device alone knew has come home. Throws std::runtime_error as Map::mass.
+  static const TileSource& source(const Map&);
   static const TileSource& source(const MapView&) noexcept;
-  static TileStore& store(Map&) noexcept;
+  static TileStore& store(Map&);
   static ChangeLog& changes(Map&) noexcept;
   static Admission& admission(Map&) noexcept;
   static const Admission& admission(const Map&) noexcept;
