@@ -6,10 +6,10 @@ cd "$(dirname "$0")"
 source cmake/packages.sh
 evigrid_install "${EVIGRID_PACKAGES[@]}"
 out="${1:-out/room}"
-parts=()  # a build folder that is there keeps the parts it was set up with
-[ -f build/CMakeCache.txt ] || parts=(-DEVIGRID_BUILD_TESTS=OFF -DEVIGRID_BUILD_BENCH=OFF
-  -DEVIGRID_BUILD_SHARED=OFF -DEVIGRID_BUILD_C=OFF -DEVIGRID_BUILD_PYTHON=OFF)
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release "${parts[@]}" >/dev/null
+setup=()  # a build folder that is there keeps generator, build type and parts
+[ -f build/CMakeCache.txt ] || setup=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=OFF
+  -DEVIGRID_BUILD_BENCH=OFF -DEVIGRID_BUILD_SHARED=OFF -DEVIGRID_BUILD_C=OFF -DEVIGRID_BUILD_PYTHON=OFF)
+cmake -S . -B build "${setup[@]}" >/dev/null
 cmake --build build --target evigrid
 mkdir -p "$(dirname "$out")"
 build/evigrid run -o "$out"

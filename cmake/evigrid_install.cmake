@@ -69,6 +69,7 @@ endif()
 
 # Debian packages: cpack -G DEB --config build/CPackConfig.cmake
 set(CPACK_GENERATOR DEB)
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/debian/tools.cmake)
 set(CPACK_PACKAGE_NAME evigrid)
 set(CPACK_PACKAGE_VENDOR evigrid)
 set(CPACK_PACKAGE_CONTACT "evigrid developers <evigrid@localhost>")

@@ -10,6 +10,8 @@
 #include <chrono>
 #include <mutex>
 #include <set>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -62,6 +64,27 @@ TEST(Executor, EveryIndexOnceAndWorkersInRange) {
     }
   }
   EXPECT_FALSE(make_executor("threads", 2));
+}
+
+TEST(Executor, AnExceptionOfATaskComesOutOfRun) {
+  if (testing::kThreadSanitizer)
+    GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
+  for (const char* name : {"serial", "tbb", "openmp", "spin"}) {
+    for (const int threads : {1, 2, 7}) {
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(threads));
+      const auto e = make_executor(name, threads);
+      for (const int bad : {1, 90}) {  // one task of a hundred throws, or nearly all
+        int context = bad;
+        const auto task = [](void* p, std::int64_t i, int) {
+          if (i >= 7 && i < 7 + *static_cast<const int*>(p)) throw std::length_error("task " + std::to_string(i));
+        };
+        EXPECT_THROW(e->run(100, task, &context), std::length_error);
+      }
+      Seen after(200);  // as if nothing had been
+      run(*e, after, 0);
+      for (const auto& t : after.times) EXPECT_EQ(t, 1);
+    }
+  }
 }
 
 TEST(Executor, TheThreadsAskedForReallyRun) {
