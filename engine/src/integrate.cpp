@@ -5,7 +5,6 @@
 #include "integrate.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "device/device_map.hpp"
 #include "kernels/row/portable_math.hpp"
@@ -65,10 +64,7 @@ void fuse_regions(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) 
 }
 
 /// What the device alone knows comes home, and the map goes on without it.
-void give_up(const Pipeline& p, const kernels::DeviceError& failed, bool cells_lost) {
-  if (cells_lost && (*p.device)->any_away())
-    throw std::runtime_error(std::string("the device was lost with cells that it alone knew, the map is not whole: ") +
-                             failed.what());
+void give_up(const Pipeline& p, const kernels::DeviceError& failed) {
   (*p.device)->come_home(p.store, p.executor);
   *p.note = std::string(failed.what()) + "; the map goes on on the processor";
   p.device->reset();
@@ -90,11 +86,8 @@ bool for_device(const Pipeline& p) {
 bool fused_by_device(const Pipeline& p, Scratch& s, const kernels::RuleArgs& rule) {
   try {
     s.stats.push_back((*p.device)->fuse(p, s, rule));
-  } catch (const kernels::DeviceLost& lost) {
-    give_up(p, lost, true);
-    return false;
   } catch (const kernels::DeviceError& failed) {
-    give_up(p, failed, false);
+    give_up(p, failed);
     return false;
   }
   if (!p.admission.guarded.empty() || p.store.pages()) (*p.device)->come_home(p.store, p.executor);
@@ -122,9 +115,16 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
     ++number;
     s.scan_end.push_back(s.footprints.size());
   }
+  const kernels::RuleArgs rule = args_of(p.params, p.undo);
+  s.stats.clear();
+  bool by_device = false;
   try {
     bin(s.footprints, p.table, p.store, p.admission, p.executor, s.plan);
     copy_what_views_see(s.plan, p.store, p.executor);
+    if (for_device(p)) {
+      const Shield shield(s.plan, p.admission, p.store);
+      by_device = fused_by_device(p, s, rule);
+    }
   } catch (...) {  // no room: the scans did not come, and tiles that nothing was ever written to need none
     p.store.now_ns = before_ns;
     for (const TileWork& w : s.plan.tiles) {
@@ -133,12 +133,9 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
     s.plan.tiles.clear();
     throw;
   }
-  const kernels::RuleArgs rule = args_of(p.params, p.undo);
-  s.stats.clear();
-  {
-    const bool by_device = for_device(p);
+  if (!by_device) {
     const Shield shield(s.plan, p.admission, p.store);
-    if (!by_device || !fused_by_device(p, s, rule)) fuse_regions(p, s, rule);
+    fuse_regions(p, s, rule);
   }
   for (const kernels::Stats& region : s.stats) {
     report.cells_updated += region.cells;

@@ -14,8 +14,7 @@
 
 namespace evigrid::kernels {
 
-/// Out of memory, or the device failed; the message says what. No cell has been changed, neither on the host nor on the
-/// device.
+/// Out of memory, or the device failed; the message says what. Cells are what they were, on the host and on the device.
 struct DeviceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

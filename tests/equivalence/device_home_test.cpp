@@ -270,6 +270,27 @@ TEST_P(CellsOnDevice, AWindowDropsThemWhereTheyAre) {
   EXPECT_TRUE(cells_of(map) == cells_of(host));
 }
 
+/// A reader of single cells between all batches: the list of what is away does not grow with them.
+TEST_P(CellsOnDevice, ComeHomeOneByOneForAsLongAsOneLikes) {
+  const auto d = testing::drive(Model::hughes1992, 6, 59);
+  Map host({}, make_serial_executor()), map = watched({});
+  for (Map* m : {&host, &map}) {
+    for (const Sensor& s : d->sensors) m->add(s);
+  }
+  std::vector<Mass> seen[2];
+  for (int round = 0; round < 60; ++round) {
+    for (Map* m : {&host, &map}) {
+      m->integrate(d->scans[static_cast<std::size_t>(round % 6)]);
+      for (int tile = -1; tile <= 1; ++tile) seen[m == &map].push_back(m->mass({tile * 64 + 9, round % 50}));
+    }
+  }
+  EXPECT_EQ(seen[1], seen[0]);
+  EXPECT_LE(log.fetched, 180U);
+  const std::size_t before = log.fetched;
+  EXPECT_EQ(map.hash(), host.hash());
+  EXPECT_LE(log.fetched - before, map.tiles());  // none twice
+}
+
 TEST_P(CellsOnDevice, ReadersMayComeTogether) {
   const auto d = testing::drive(Model::li2014, 8, 41);
   Map host({}, make_serial_executor()), map = watched({});
@@ -308,6 +329,23 @@ TEST_P(CellsOnDevice, ComeBackWhenTheDeviceRunsOutOfMemory) {
   EXPECT_EQ(map.hash(), host.hash());
 }
 
+/// No memory for a batch, nor for the way back: nothing is fused, and when there is memory again nothing was lost.
+TEST_P(CellsOnDevice, WaitForMemoryWhereTheyAre) {
+  const auto d = testing::drive(Model::li2014, 9, 53);
+  Map host({}, make_serial_executor()), map = watched({});
+  for (Map* m : {&host, &map}) {
+    for (const Sensor& s : d->sensors) m->add(s);
+    m->integrate(std::span(d->scans).first(3));
+  }
+  log.no_memory = log.no_way_back = true;
+  EXPECT_THROW(map.integrate(std::span(d->scans).subspan(3, 3)), std::runtime_error);
+  EXPECT_THROW((void)map.hash(), std::runtime_error);
+  log.no_memory = log.no_way_back = false;
+  for (Map* m : {&host, &map}) m->integrate(std::span(d->scans).subspan(6));
+  EXPECT_EQ(map.kernel_name(), "cuda");
+  EXPECT_EQ(map.hash(), host.hash());
+}
+
 TEST_P(CellsOnDevice, AreMissedWhenTheDeviceIsLost) {
   const auto d = testing::drive(Model::li2014, 9, 47);
   const auto expect_not_whole = [](const std::function<void()>& f) {
@@ -343,6 +381,17 @@ TEST_P(CellsOnDevice, AreMissedWhenTheDeviceIsLost) {
   expect_not_whole([&] { (void)cells_of(map); });
   expect_not_whole([&] { map.clear({0, 0, 9, 9}); });
   EXPECT_EQ(map.mass({100'000, 100'000}), Mass{});  // no tile, nothing to be missed
+  // Also when the device answers again: what it holds is not the map.
+  log.lost = log.no_way_back = false;
+  expect_not_whole([&] { (void)map.mass({20, 10}); });
+  expect_not_whole([&] { (void)costs_of<std::uint8_t>(map); });
+  expect_not_whole([&] { map.integrate(d->scans[3]); });
+  map.clear();
+  map.integrate(d->scans[3]);
+  Map host({}, make_serial_executor());
+  for (const Sensor& s : d->sensors) host.add(s);
+  host.integrate(d->scans[3]);
+  EXPECT_EQ(map.hash(), host.hash());
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, CellsOnDevice, ::testing::Values("emulated", "cuda"), device_name);

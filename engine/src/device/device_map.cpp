@@ -14,6 +14,7 @@ void DeviceMap::forget() noexcept {
   taken_ = 0;
   away_.clear();
   rendered_.clear();
+  lost_.clear();
   any_away_.store(false, std::memory_order_release);
 }
 
@@ -100,7 +101,7 @@ void DeviceMap::list_tiles(const Pipeline& p, const Plan& plan) {
   tiles_.clear();
   for (const TileWork& w : plan.tiles) {
     Tile& tile = *w.tile;
-    const bool current = tile.on_device != nullptr && tile.device_version == tile.buffer->marks.last;
+    const bool current = tile.on_device != nullptr && (tile.away || tile.device_version == tile.buffer->marks.last);
     if (tile.on_device == nullptr) {
       tile.on_device = device_->take(p.store.tile_bytes());
       ++taken_;
@@ -111,6 +112,7 @@ void DeviceMap::list_tiles(const Pipeline& p, const Plan& plan) {
 }
 
 void DeviceMap::mark(const Pipeline& p, Plan& plan, const kernels::DeviceResult& result) {
+  tidy(p.store);
   for (std::size_t i = 0; i < plan.tiles.size(); ++i) {
     TileWork& w = plan.tiles[i];
     Tile& tile = *w.tile;
@@ -129,6 +131,7 @@ void DeviceMap::mark(const Pipeline& p, Plan& plan, const kernels::DeviceResult&
 
 kernels::Stats DeviceMap::fuse(const Pipeline& p, Scratch& s, const kernels::RuleArgs& args) {
   if (s.footprints.empty() || s.plan.tiles.empty()) return {};
+  if (!lost_.empty()) not_whole();
   list_runs(p.params, s);
   list_parts(s.plan, p.executor);
   list_tiles(p, s.plan);
@@ -146,9 +149,15 @@ kernels::Stats DeviceMap::fuse(const Pipeline& p, Scratch& s, const kernels::Rul
   batch.runs = runs_;
   batch.parts = parts_;
   batch.reaches = reaches_;
-  const kernels::DeviceResult result = device_->fuse(batch);
-  mark(p, s.plan, result);
-  return result.stats;
+  try {
+    const kernels::DeviceResult result = device_->fuse(batch);
+    mark(p, s.plan, result);
+    return result.stats;
+  } catch (const kernels::DeviceLost& failed) {
+    if (!any_away()) throw;
+    lost_ = failed.what();
+    not_whole();
+  }
 }
 
 }  // namespace evigrid

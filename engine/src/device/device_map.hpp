@@ -25,9 +25,9 @@ class DeviceMap {
   /// The store was cleared.
   void forget() noexcept;
 
-  /// The readings of the plan, as the regions' tasks would fuse and mark them. Throws kernels::DeviceError before
-  /// anything has changed, kernels::DeviceLost when the tiles of the batch are undefined on the device, and
-  /// std::runtime_error as come_home().
+  /// The readings of the plan, as the regions' tasks would fuse and mark them. Throws kernels::DeviceError when nothing
+  /// has changed on the host, where the batch can be fused once all tiles have come home; std::runtime_error as
+  /// come_home() when the device was lost with tiles that were away, for good.
   kernels::Stats fuse(const Pipeline&, Scratch&, const kernels::RuleArgs&);
 
   /// Whether there may be tiles that are away.
@@ -47,21 +47,26 @@ class DeviceMap {
     std::shared_ptr<TileCosts> tiles;
     std::uint64_t batch = 0;  // after so many batches they were complete
   };
+  [[noreturn]] void not_whole() const;
   void list_runs(const MapParams&, const Scratch&);
   void list_region(const Plan&, std::size_t region);
   void list_parts(const Plan&, Executor&);
   void list_tiles(const Pipeline&, const Plan&);
   void mark(const Pipeline&, Plan&, const kernels::DeviceResult&);
+  [[nodiscard]] std::vector<Tile*> away_in(TileStore&, const TileRect*) const;
+  void tidy(TileStore&);
   void copy_home(TileStore&, const TileRect*, Executor*);
-  void render(const TileStore&, RenderedCosts&);
+  void copy_home(const std::vector<Tile*>&, std::size_t bytes, Executor*);
+  void render(TileStore&, RenderedCosts&);
 
   std::unique_ptr<kernels::Device> device_;
   std::size_t taken_ = 0;  // tiles of the device
   std::uint64_t batches_ = 0;
+  std::string lost_;  // why no tile that is away will ever come home
   // Between readers.
   std::mutex mutex_;
   std::atomic<bool> any_away_ = false;
-  std::vector<TileIndex> away_;  // and some that were dropped since
+  std::vector<TileIndex> away_;  // at least once each, and some that were dropped or came home since
   std::vector<RenderedCosts> rendered_;
   // Of a batch; kept for their memory.
   struct RegionParts {

@@ -19,6 +19,9 @@ struct TileRect {
   [[nodiscard]] bool holds(TileIndex t) const noexcept {
     return t.x >= first.x && t.x <= last.x && t.y >= first.y && t.y <= last.y;
   }
+  [[nodiscard]] double tiles() const noexcept {
+    return static_cast<double>(last.x - first.x + 1) * static_cast<double>(last.y - first.y + 1);
+  }
 };
 /// All tiles that a rectangle of cells meets; it is not empty.
 inline TileRect tiles_of(const CellRect& r) noexcept {
