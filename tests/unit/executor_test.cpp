@@ -26,11 +26,17 @@ struct Seen {
   explicit Seen(std::size_t n) : times(n) {}
 };
 
-void run(Executor& e, Seen& seen, int wait_us) {
+/// Every task waits until so many threads have come, for half a minute at most.
+void run(Executor& e, Seen& seen, std::size_t threads = 1) {
   struct Context {
     Seen& seen;
-    int wait_us;
-  } context{seen, wait_us};
+    std::size_t threads;
+    std::chrono::steady_clock::time_point until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    [[nodiscard]] bool all_came() {
+      const std::lock_guard hold(seen.lock);
+      return seen.threads.size() >= threads;
+    }
+  } context{seen, threads};
   e.run(
       static_cast<std::int64_t>(seen.times.size()),
       [](void* p, std::int64_t i, int worker) {
@@ -41,7 +47,8 @@ void run(Executor& e, Seen& seen, int wait_us) {
           c.seen.threads.insert(std::this_thread::get_id());
           c.seen.workers.insert(worker);
         }
-        std::this_thread::sleep_for(std::chrono::microseconds(c.wait_us));
+        while (!c.all_came() && std::chrono::steady_clock::now() < c.until)
+          std::this_thread::sleep_for(std::chrono::microseconds(50));
       },
       &context);
 }
@@ -55,7 +62,7 @@ TEST(Executor, EveryIndexOnceAndWorkersInRange) {
       ASSERT_TRUE(e);
       EXPECT_EQ(e->name(), name);
       Seen seen(500);
-      run(*e, seen, 0);
+      run(*e, seen);
       for (const auto& t : seen.times) EXPECT_EQ(t, 1);
       for (const int w : seen.workers) {
         EXPECT_GE(w, 0);
@@ -81,7 +88,7 @@ TEST(Executor, AnExceptionOfATaskComesOutOfRun) {
         EXPECT_THROW(e->run(100, task, &context), std::length_error);
       }
       Seen after(200);  // as if nothing had been
-      run(*e, after, 0);
+      run(*e, after);
       for (const auto& t : after.times) EXPECT_EQ(t, 1);
     }
   }
@@ -90,17 +97,15 @@ TEST(Executor, AnExceptionOfATaskComesOutOfRun) {
 TEST(Executor, TheThreadsAskedForReallyRun) {
   if (testing::kThreadSanitizer)
     GTEST_SKIP() << "TBB and OpenMP of the distribution are not instrumented for the thread sanitizer";
-  Seen serial(50), openmp(700);
-  run(*make_serial_executor(), serial, 10);
+  Seen serial(50), openmp(70), spin(70), tbb(40);
+  run(*make_serial_executor(), serial);
   EXPECT_EQ(serial.threads.size(), 1u);
-  run(*make_openmp_executor(7), openmp, 300);
+  run(*make_openmp_executor(7), openmp, 7);
   EXPECT_EQ(openmp.threads.size(), 7u);
-  Seen spin(700);
-  run(*make_spinning_executor(7), spin, 300);
+  run(*make_spinning_executor(7), spin, 7);
   EXPECT_EQ(spin.threads.size(), 7u);
   if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor: TBB runs one thread here";
-  Seen tbb(400);
-  run(*make_tbb_executor(2), tbb, 500);
+  run(*make_tbb_executor(2), tbb, 2);
   EXPECT_EQ(tbb.threads.size(), 2u);
 }
 
