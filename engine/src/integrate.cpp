@@ -104,7 +104,8 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
     s.scan_end.push_back(s.footprints.size());
   }
   try {
-    bin(s.footprints, p.table, p.store, p.admission, p.executor, s.plan);
+    const Missing missing = p.undo ? Missing::left_out : Missing::made;  // of what is not there nothing is taken back
+    bin(s.footprints, p.table, p.store, p.admission, missing, p.executor, s.plan);
     copy_what_views_see(s.plan, p.store, p.executor);
   } catch (...) {  // no room: the scans did not come, and tiles that nothing was ever written to need none
     p.store.now_ns = before_ns;
