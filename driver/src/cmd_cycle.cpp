@@ -147,24 +147,29 @@ Json sweep_all(std::optional<FleetWorld> world, const FleetOptions& o, Results& 
   return Json{{"sweeps", std::move(report)}};
 }
 
-Json replay_log(const FleetOptions& o, Results& results) {
-  const Replayed r =
-      replay(o.replay, parse_part(o.part), parse_kernel(o.kernel), parse_executor(o.executor, o.threads));
+Json replay_log(const FleetOptions& o, std::optional<std::size_t> memory_cap_bytes, Results& results) {
+  LoadOptions how{parse_executor(o.executor, o.threads), parse_kernel(o.kernel), memory_cap_bytes};
+  if (!o.page_dir.empty()) how.page_directory = o.page_dir;
+  const Replayed r = replay(o.replay, parse_part(o.part), how);
   const std::string hash = fmt::format("{:016x}", r.map.hash());
   results.say(fmt::format("{}: {} of {} scans fused in {:.3f} s, {} cells updated, map hash {}\n", o.replay, r.scans,
                           r.logged, r.fusion_s, r.report.cells_updated, hash));
   if (OutDir* out = results.dir()) out->write_by(kMapFile, [&](std::ostream& file) { save(r.map, file); });
-  return {{"replay", o.replay},
-          {"part", o.part},
-          {"scans", r.scans},
-          {"scans_logged", r.logged},
-          {"cells_updated", r.report.cells_updated},
-          {"readings_used", r.report.readings_used},
-          {"fusion_s", r.fusion_s},
-          {"map_hash", hash}};
+  Json report{{"replay", o.replay},
+              {"part", o.part},
+              {"scans", r.scans},
+              {"scans_logged", r.logged},
+              {"cells_updated", r.report.cells_updated},
+              {"readings_used", r.report.readings_used},
+              {"fusion_s", r.fusion_s},
+              {"map_hash", hash},
+              {"memory_bytes", r.map.memory_bytes()}};
+  if (r.map.paged_bytes() > 0) report["paged_bytes"] = r.map.paged_bytes();
+  return report;
 }
 
 void run_cycle(const FleetOptions& o, const CLI::App& command) {
+  std::optional<std::size_t> replay_cap;  // none given: that of the run which wrote the log
   if (o.replay.empty()) {
     if (o.part != "all") throw InputError("--part: is for --replay");
     (void)plan_fleet(o);
@@ -173,13 +178,16 @@ void run_cycle(const FleetOptions& o, const CLI::App& command) {
   } else {
     (void)parse_part(o.part);
     refuse_given_but(command,
-                     {"--replay", "--part", "--save-map", "--threads", "--executor", "--kernel", "--out", "--json"},
+                     {"--replay", "--part", "--save-map", "--memory-mb", "--page-dir", "--threads", "--executor",
+                      "--kernel", "--out", "--json"},
                      "is not for --replay, which fuses what a log holds");
+    if (o.save_map && o.out_dir.empty()) throw InputError("--save-map: needs -o DIR");
+    if (command.count("--memory-mb") > 0) replay_cap = memory_cap(o.memory_mb);
   }
   Results results(o);
   Json report;
   if (!o.replay.empty()) {
-    report = replay_log(o, results);
+    report = replay_log(o, replay_cap, results);
   } else {
     FleetWorld world(o);
     report = o.find_max          ? search(world, o, results)
@@ -229,7 +237,8 @@ void add_cycle(CLI::App& app) {
   add("--replay", o.replay, "fuse such a file instead");
   add("--part", o.part, "of --replay: all, fused, or late (the fused, then the skipped)")->capture_default_str();
   command->add_flag("--save-map", o.save_map, "also write map.evigrid into -o");
-  add("--memory-mb", o.memory_mb, "cap of the map, MiB of its tiles")->capture_default_str();
+  add("--memory-mb", o.memory_mb, "cap of the map, MiB of its tiles (of --replay: that of the logged run)")
+      ->capture_default_str();
   add("--page-dir", o.page_dir, "beyond that cap, tiles that changed longest ago go to a file in this folder");
   add("--threads", o.threads, "worker threads; 0: as many as the machine has")->capture_default_str();
   add("--executor", o.executor, "serial, tbb, openmp or spin; the map is the same")->capture_default_str();
@@ -247,6 +256,7 @@ void add_cycle(CLI::App& app) {
       "  evigrid cycle --robots 300 --policy backlog --backlog 900 --deadline-ms 20\n"
       "  evigrid cycle --robots 300 --policy skip --deadline-ms 20 -o out/skip\n"
       "  evigrid cycle --replay out/skip/scans.evilog --part fused\n"
+      "  evigrid cycle --replay out/skip/scans.evilog --memory-mb 512 --page-dir /var/tmp\n"
       "  evigrid cycle --robots 200 --sweep robots=50,100,200 --sweep threads=1,2 -o out/sweep\n");
   command->callback([options, command] { run_cycle(*options, *command); });
 }

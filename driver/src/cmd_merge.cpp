@@ -71,6 +71,8 @@ std::vector<Part> parts_of(const Args& args) {
     Part part{args.maps[i + 1], {}, 1};
     if (!args.poses.empty()) part.pose = parse_pose(args.poses[i]);
     if (!args.reliability.empty()) part.reliability = args.reliability[args.reliability.size() == 1 ? 0 : i];
+    if (!(part.reliability > 0 && part.reliability <= 1))
+      throw InputError(fmt::format("--reliability: {} is not within (0, 1]", part.reliability));
     out.push_back(part);
   }
   return out;
@@ -91,6 +93,7 @@ Json step(const SavedMap& from, const Part& part, const MergeReport& r) {
 void merge_maps(const Args& args) {
   if (args.maps.size() < 2) throw InputError("merge takes at least two maps");
   const std::vector<Part> parts = parts_of(args);
+  if (args.max_image_mb <= 0) throw InputError(fmt::format("--max-image-mb: {} is not above 0", args.max_image_mb));
   const std::shared_ptr<Executor> executor = parse_executor(args.executor, args.threads);
   OutDir out(args.out);
   if (!args.json.empty() && args.json != "-") require_writable(args.json);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <iostream>
 #include <numbers>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "commands.hpp"
 #include "error.hpp"
 #include "evigrid/sensor.hpp"
+#include "given_options.hpp"
 #include "log/line_reader.hpp"
 #include "model_options.hpp"
 #include "options.hpp"
@@ -57,6 +59,8 @@ Point parse_point(const std::string& text) {
       !parse_number(std::string_view(text).substr(comma + 1), p.theta_deg)) {
     throw InputError(fmt::format("--at: '{}' is not d,theta_deg", text));
   }
+  if (!(p.d_m >= 0 && std::isfinite(p.d_m) && std::isfinite(p.theta_deg)))
+    throw InputError(fmt::format("--at: '{}' is no distance, from 0 on, and angle", text));
   return p;
 }
 
@@ -146,7 +150,10 @@ void add_model(CLI::App& app) {
       "  evigrid model li2006 --reading 1.5 --at 1.2,0 --param epsilon_m=0.05\n"
       "  evigrid model moravec1985 --reading 2 --at 1,0 --at 2,0 --cell 0.1\n"
       "  evigrid model beam --reading 3 --grid > beam.csv\n");
-  command->callback([args] { evaluate_points(*args); });
+  command->callback([args, command] {
+    if (args->model == name(Model::beam)) refuse_given(*command, {"--aperture"}, "is for cones; a beam has none");
+    evaluate_points(*args);
+  });
 }
 
 }  // namespace evigrid::driver

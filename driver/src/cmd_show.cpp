@@ -28,6 +28,7 @@ struct Args {
 void show(const Args& args) {
   const Look look = args.surface ? Look::surface : parse_look("--layer", args.layer);
   if (args.scale < 0) throw InputError(fmt::format("--scale: {} is below 1", args.scale));
+  if (args.columns < 0) throw InputError(fmt::format("--columns: {} is below 1", args.columns));
   if (args.max_image_mb <= 0) throw InputError(fmt::format("--max-image-mb: {} is not above 0", args.max_image_mb));
   if (!args.out.empty()) require_writable(args.out);
   const SavedMap saved = open_saved_map(args.map, nullptr, args.region_m);

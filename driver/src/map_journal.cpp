@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <filesystem>
 
 #include "error.hpp"
 
@@ -29,6 +30,9 @@ MapJournal::MapJournal(const JournalFile& file, const Map& map, std::span<const 
   if (path_.empty()) return;
   try {
     if (!file.resume) {
+      std::error_code ignored;
+      if (std::filesystem::exists(path_, ignored))
+        throw InputError(fmt::format("--journal: {} is there already; --resume goes on with it", path_));
       journal_ = Journal::create(path_, map.params(), map.sensors());
       return;
     }

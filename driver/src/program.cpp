@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "error.hpp"
 #include "evigrid/version.hpp"
+#include "strict_values.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -50,6 +51,7 @@ int run_program(int argc, const char* const* argv) {
     add_paper(app);
     add_cycle(app);
     add_info(app);
+    refuse_odd_values(app);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
       return std::string("evigrid: ") + error.what() + "\nRun with --help for more information.\n";
     });
@@ -57,8 +59,7 @@ int run_program(int argc, const char* const* argv) {
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-      const int code = app.exit(error);  // prints help, the version, or what is wrong
-      return code == 0 ? kOk : kBadInput;
+      if (app.exit(error) != 0) return kBadInput;  // prints help, the version, or what is wrong
     }
     std::cout.flush();
     if (!std::cout) throw InputError("standard output: cannot be written");

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "error.hpp"
 #include "evigrid/raycast/scene.hpp"
-#include "evigrid/scenes/simulate.hpp"
 #include "mapping.hpp"
 #include "options.hpp"
 #include "progress.hpp"
@@ -17,8 +17,9 @@
 namespace evigrid::driver {
 namespace {
 
-constexpr std::size_t kBatch = 512;                       // steps a call: threads stay busy, progress stays smooth
-constexpr std::size_t kMostBytes = std::size_t{4} << 30;  // of one run's readings
+constexpr std::size_t kBatch = 512;                         // steps a call: threads stay busy, progress stays smooth
+constexpr std::size_t kBatchBytes = std::size_t{64} << 20;  // of its ranges
+constexpr std::size_t kMostBytes = std::size_t{4} << 30;    // of one run's readings
 
 Pose2 to_engine(const scenes::Pose& p) { return {p.x_m, p.y_m, p.yaw_rad}; }
 
@@ -62,9 +63,14 @@ std::vector<LogSensor> declared_sensors(const scenes::Scene& scene) {
 
 namespace {
 
+std::size_t ranges_a_step(const scenes::Scene& scene) {
+  std::size_t ranges = scene.sonars.size();
+  for (const scenes::LaserSpec& laser : scene.lasers) ranges += static_cast<std::size_t>(laser.beams);
+  return ranges;
+}
+
 void require_memory(const scenes::Scene& scene, std::size_t steps) {
-  std::size_t beams = scene.sonars.size();
-  for (const scenes::LaserSpec& laser : scene.lasers) beams += static_cast<std::size_t>(laser.beams);
+  const std::size_t beams = ranges_a_step(scene);
   const std::size_t bytes_a_step = beams * sizeof(float) + scene.sonars.size() * sizeof(LogReading) + sizeof(LogScan);
   if (steps > kMostBytes / bytes_a_step) {
     throw InputError(
@@ -75,7 +81,8 @@ void require_memory(const scenes::Scene& scene, std::size_t steps) {
 }
 
 /// A way through a wall is most likely a slip in the scene's numbers; a map of it would look like a broken mapper.
-void warn_of_walls(const raycast::Scene& caster, const std::vector<scenes::Pose>& poses, Log& log) {
+void warn_of_walls(const raycast::Scene& caster, const std::vector<scenes::Pose>& poses,
+                   std::vector<std::string>& warnings) {
   std::size_t crossings = 0;
   std::string first;
   for (std::size_t i = 1; i < poses.size(); ++i) {
@@ -87,8 +94,14 @@ void warn_of_walls(const raycast::Scene& caster, const std::vector<scenes::Pose>
     if (crossings++ == 0) first = fmt::format("step {} near ({:.2f}, {:.2f})", i, a.x_m, a.y_m);
   }
   if (crossings > 0)
-    log.warnings.push_back(
-        fmt::format("the robot drives through walls in {} of its steps, first in {}", crossings, first));
+    warnings.push_back(fmt::format("the robot drives through walls in {} of its steps, first in {}", crossings, first));
+}
+
+scenes::Scene ideal(scenes::Scene scene) {
+  for (scenes::SonarSpec& sonar : scene.sonars) sonar.noise = {};
+  for (scenes::LaserSpec& laser : scene.lasers) laser.noise = {};
+  scene.echo = {};
+  return scene;
 }
 
 void append(Log& log, std::size_t sensor, const float* first, std::size_t count) {
@@ -146,41 +159,55 @@ void use_map_options(const scenes::Scene& scene, MappingOptions& options) {
   if (!options.decay_s && scene.map.decay_s > 0) options.decay_s = scene.map.decay_s;
 }
 
+Casting::Casting(const scenes::Scene& scene, const CastOptions& options)
+    : scene_(options.ideal ? ideal(scene) : scene),
+      caster_(scenes::make_caster(scene_)),
+      simulation_(scene_, caster_),
+      batch_(std::clamp<std::size_t>(kBatchBytes / (sizeof(float) * std::max<std::size_t>(ranges_a_step(scene), 1)), 1,
+                                     kBatch)),
+      threads_(options.threads) {}
+
+std::vector<scenes::Step> Casting::next() {
+  const std::size_t count = std::min(batch_, steps() - done_);
+  if (count == 0) return {};
+  const std::size_t first = std::exchange(done_, done_ + count);
+  return simulation_.run(first, count, threads_);
+}
+
+std::vector<std::string> Casting::warnings() const {
+  std::vector<std::string> out;
+  warn_of_walls(caster_, simulation_.poses(), out);
+  if (steps() == 1)
+    out.emplace_back(
+        "the robot stands still: one scan only; in a tour it has no room to drive, try a smaller robot or another "
+        "start");
+  return out;
+}
+
 Simulated simulate(const scenes::Scene& scene, const CastOptions& options) {
   const auto start = Clock::now();
   Simulated out;
   out.log.format = "scene";
-  scenes::Scene copy = scene;
-  if (options.ideal) {
-    for (scenes::SonarSpec& sonar : copy.sonars) sonar.noise = {};
-    for (scenes::LaserSpec& laser : copy.lasers) laser.noise = {};
-    copy.echo = {};
-  }
-  out.log.sensors = declared_sensors(copy);
-  const raycast::Scene caster = scenes::make_caster(copy);
-  const scenes::Simulation simulation(copy, caster);
-  require_memory(copy, simulation.steps());
-  warn_of_walls(caster, simulation.poses(), out.log);
-  if (simulation.steps() == 1)
-    out.log.warnings.push_back(
-        "the robot stands still: one scan only; in a tour it has no room to drive, try a smaller robot or another "
-        "start");
+  out.log.sensors = declared_sensors(scene);
+  Casting casting(scene, options);
+  const std::size_t steps = casting.steps();
+  require_memory(scene, steps);
+  out.log.warnings = casting.warnings();
   Progress progress("casting");
-  for (std::size_t at = 0; at < simulation.steps(); at += kBatch) {
-    const std::size_t count = std::min(kBatch, simulation.steps() - at);
-    for (const scenes::Step& step : simulation.run(at, count, options.threads)) {
+  for (auto batch = casting.next(); !batch.empty(); batch = casting.next()) {
+    for (const scenes::Step& step : batch) {
       out.T_map_robot.push_back(to_engine(step.T_map_robot));
       out.log.scans.push_back({step.stamp_ns, to_engine(step.T_odom_robot), out.log.readings.size(),
-                               copy.sonars.size() + copy.lasers.size()});
+                               scene.sonars.size() + scene.lasers.size()});
       std::size_t sensor = 0, beam = 0;
       for (const float& range_m : step.ranges_m) append(out.log, sensor++, &range_m, 1);
-      for (const scenes::LaserSpec& laser : copy.lasers) {
+      for (const scenes::LaserSpec& laser : scene.lasers) {
         const auto beams = static_cast<std::size_t>(laser.beams);
         append(out.log, sensor++, &step.beams_m[beam], beams);
         beam += beams;
       }
     }
-    progress.show(at + count, simulation.steps());
+    progress.show(casting.done(), steps);
   }
   out.cast_s = seconds_since(start);
   return out;

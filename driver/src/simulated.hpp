@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evigrid/scenes/scene.hpp"
+#include "evigrid/scenes/simulate.hpp"
 #include "log/log.hpp"
 
 namespace evigrid::driver {
@@ -33,6 +34,27 @@ void use_map_options(const scenes::Scene& scene, MappingOptions& options);
 struct CastOptions {
   int threads = 0;     ///< 0: as many as the machine has; the readings are the same
   bool ideal = false;  ///< no noise, no second bounce, no cross-talk
+};
+
+/// A scene's run cast piece by piece: whoever writes the readings down need not hold a long run as a whole.
+class Casting {
+ public:
+  explicit Casting(const scenes::Scene& scene, const CastOptions& options = {});
+  Casting(const Casting&) = delete;  // the simulation refers to the caster
+  Casting& operator=(const Casting&) = delete;
+  [[nodiscard]] const scenes::Scene& scene() const { return scene_; }  ///< without noise and echoes when ideal
+  [[nodiscard]] std::vector<std::string> warnings() const;             ///< what about the way may be a slip
+  [[nodiscard]] std::size_t steps() const { return simulation_.steps(); }
+  [[nodiscard]] std::size_t done() const { return done_; }  ///< steps so far
+  /// The steps that follow; none after the last.
+  [[nodiscard]] std::vector<scenes::Step> next();
+
+ private:
+  scenes::Scene scene_;
+  raycast::Scene caster_;
+  scenes::Simulation simulation_;
+  std::size_t done_ = 0, batch_;
+  int threads_;
 };
 
 struct Simulated {

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <numbers>
 #include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "error.hpp"
@@ -46,6 +47,9 @@ raycast::World load_world(const WorldOptions& o, std::optional<scenes::FloorPlan
   if (!o.up.empty() && !mesh) throw InputError("--up: is for meshes");
   if (!o.up.empty() && o.up != "y" && o.up != "z") throw InputError(fmt::format("--up: '{}' is neither y nor z", o.up));
   const bool image = !mesh && o.world != "building" && end != ".yaml" && end != ".yml" && end != ".map";
+  std::error_code error;
+  if (o.world != "building" && !std::filesystem::is_regular_file(o.world, error))  // else it would be asked for scales
+    throw InputError(o.world + (std::filesystem::exists(o.world, error) ? ": is no file" : ": there is no such file"));
   if (image && !o.resolution_m)
     throw InputError(fmt::format("--resolution: is missing, the m per pixel of {}", o.world));
   if (o.resolution_m && o.world == "building") throw InputError("--resolution: is for images and meshes");

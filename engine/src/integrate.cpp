@@ -119,7 +119,8 @@ Report integrate(const Pipeline& p, Scratch& s, std::span<const Scan> scans) {
   s.stats.clear();
   bool by_device = false;
   try {
-    bin(s.footprints, p.table, p.store, p.admission, p.executor, s.plan);
+    const Missing missing = p.undo ? Missing::left_out : Missing::made;  // of what is not there nothing is taken back
+    bin(s.footprints, p.table, p.store, p.admission, missing, p.executor, s.plan);
     copy_what_views_see(s.plan, p.store, p.executor);
     if (for_device(p)) {
       const Shield shield(s.plan, p.admission, p.store);

@@ -182,6 +182,47 @@ TEST_F(BadInput, OptionsOfScenesAreNotForLogs) {
                                               {"--up", "x"}})
     expect_refused({"compare", good, "-o", dir.at("o"), one[0], one[1]}, one[0] + ": is for ");
 }
+TEST_F(BadInput, AnEmptyValueIsNoValue) {  // mostly a variable of the shell that was not set
+  expect_refused({"cycle", "--replay", ""}, "--replay: is empty");
+  expect_refused({"run", "", "-o", dir.at("o")}, "SCENE: is empty");
+  expect_refused({"run", "--world", "", "-o", dir.at("o")}, "--world: is empty");
+  expect_refused({"export", good, "-o", "", "--format", "csv"}, "--out: is empty");
+  expect_map_refused(good, "--max-range: is empty", {"--max-range", ""});
+  expect_map_refused(good, "--threads: is empty", {"--threads", ""});
+}
+TEST_F(BadInput, WholeNumbersAreTakenAsTheyStand) {
+  expect_refused({"run", "-o", dir.at("o"), "--seed", "99999999999999999999"}, "--seed: 99999999999999999999 is too");
+  expect_refused({"cycle", "--robots", "1e3"}, "--robots: '1e3' is no whole number");
+  expect_refused({"train", good, "-o", dir.at("o"), "--examples", "-1"}, "--examples: '-1' is no whole number from 0");
+  std::string head = "e1,o1", row = "0,0";
+  for (int source = 2; source <= 8; ++source) head += fmt::format(",e{0},o{0}", source), row += ",0,0";
+  const std::string rows = dir.write("rows.csv", head + "\n" + row + "\n");
+  expect_refused({"combine", "--rule", "murphy", "--in", rows, "--sources", "010"}, "e9: the column is missing");
+  EXPECT_EQ(evigrid({"combine", "--rule", "murphy", "--in", rows, "--sources", "+08"}).code, 0);
+}
+TEST_F(BadInput, FoldersAndMissingFilesByName) {
+  const std::string folder = dir.at(""), none = dir.at("none"), out = dir.at("o");
+  expect_refused({"run", "-o", out, "--revision", folder}, "is a folder");
+  expect_refused({"run", "-o", out, "--revision", none}, "none: cannot be read: No such file");
+  expect_refused({"run", "-o", out, "--world", none}, "none: there is no such file");
+  expect_refused({"run", "-o", out, "--world", folder}, ": is no file");
+  expect_refused({"show", none}, "none: cannot be opened: No such file");
+  expect_refused({"cycle", "--replay", folder}, "is a folder");
+  expect_map_refused(good, "good.log is there already; --resume", {"--journal", good});
+}
+TEST_F(BadInput, OddNumbersAndOptionsWithoutUse) {
+  expect_refused({"model", "li2014", "--reading", "1", "--at", "nan,0"}, "--at: 'nan,0'");
+  expect_refused({"model", "li2014", "--reading", "1", "--at", "-1,0"}, "--at: '-1,0'");
+  expect_refused({"model", "beam", "--reading", "1", "--at", "1,0", "--aperture", "9"}, "--aperture: is for cones");
+  expect_refused({"show", good, "--columns", "-1"}, "--columns: -1");
+  expect_refused({"calibrate", good, "--bin", "1e300"}, "--bin: 1e+300 is above 1000 m");
+  expect_refused({"merge", good, good, "-o", dir.at("o"), "--reliability", "2"}, "--reliability: 2 is not within");
+  expect_refused({"cycle", "--replay", good, "--save-map"}, "--save-map: needs -o");
+}
+TEST_F(BadInput, AFullStandardOutputIsTold) {
+  for (const std::string command : {"--help", "map --help", "--version", "cast", "info"})
+    EXPECT_EQ(std::system(("'" EVIGRID_PROGRAM "' " + command + " >/dev/full 2>/dev/null").c_str()), 2 << 8) << command;
+}
 TEST_F(BadInput, ARegionIsOfAMap) { expect_refused({"info", "--region=0,0,1,1"}, "--region: is for a MAP"); }
 
 }  // namespace

@@ -8,7 +8,9 @@
 #include <set>
 
 #include "decoded_png.hpp"
+#include "peak_memory.hpp"
 #include "program.hpp"
+#include "records.hpp"
 #include "text.hpp"
 
 namespace evigrid::driver {
@@ -153,6 +155,16 @@ TEST(Compare, ALogWithoutPosesIsRefusedAsMapDoes) {
   EXPECT_EQ(ran.code, 2);
   EXPECT_TRUE(contains(ran.err, "has no poses")) << ran.err;
   EXPECT_FALSE(std::filesystem::exists(dir.at("out")));
+}
+
+TEST(Compare, ManyRowsTakeNoMoreMemoryThanOne) {
+  const TempDir dir;
+  const std::string log = dir.write("far.log", flaser(180, "3.5", 1) + flaser(180, "3.5", 2, "70 70 0"));
+  const auto peak = [&](const std::string& rules) {
+    return peak_mb({"compare", log, "-o", dir.at("out"), "--rules", rules, "--threads", "1"});
+  };
+  const double one_row = peak("pcr5");  // 1500 x 1500 cells, 36 MB of planes
+  EXPECT_LT(peak("dempster,pcr2,pcr5,yager,pcr1,dsmh") - one_row, 60);
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ TEST(Cycle, WhatCannotBeIsRefusedWithItsName) {
         Row{{"cycle", "--replay", dir.at("text"), "--find-max"}, "--replay"},
         Row{{"cycle", "--replay", dir.at("text"), "--rule", "pcr5"}, "--rule: is not for --replay"},
         Row{{"cycle", "--replay", dir.at("text"), "--robots", "5"}, "--robots: is not for --replay"},
-        Row{{"cycle", "--replay", dir.at("text"), "--memory-mb", "5"}, "--memory-mb: is not for --replay"},
+        Row{{"cycle", "--replay", dir.at("text"), "--memory-mb", "0"}, "--memory-mb: 0 is not within"},
         Row{{"cycle", "--replay", dir.at("text"), "--paced"}, "--paced: is not for --replay"},
         Row{{"cycle", "--robots", "50", "--grid", "512", "--memory-mb", "1"}, "--memory-mb"},
         Row{{"cycle", "--json", dir.at("no/folder/report")}, "cannot be written"}}) {

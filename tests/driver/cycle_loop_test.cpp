@@ -152,7 +152,7 @@ TEST(CycleLoop, TheLogGivesBackTheRunsMapAndTheUnhurriedOne) {
   EXPECT_EQ(dir.names(), (std::set<std::string>{"scans.evilog"}));
 
   const auto replayed = [&](ReplayPart part, const std::string& executor, int threads) {
-    return replay(path, part, Kernel::automatic, std::shared_ptr<Executor>(make_executor(executor, threads)));
+    return replay(path, part, {std::shared_ptr<Executor>(make_executor(executor, threads)), Kernel::automatic});
   };
   const std::uint64_t unhurried = unhurried_hash();
   for (const int threads : {1, 2, 7}) {

@@ -112,6 +112,22 @@ TEST(OutDir, ASingleFile) {
   EXPECT_THROW(write_file(dir.at("no/f"), "x"), InputError);
 }
 
+TEST(WriteFile, PieceByPieceOrNotAtAll) {
+  const TempDir dir;
+  dir.write("kept", "old");
+  for (const char* name : {"kept", "new"}) {
+    EXPECT_THROW(write_file_by(dir.at(name), [](std::ostream& to) { to.setstate(std::ios::badbit); }), InputError);
+    EXPECT_THROW(write_file_by(dir.at(name), [](std::ostream&) { throw std::runtime_error("x"); }), std::runtime_error);
+  }
+  EXPECT_THROW(write_file_by(dir.at("no/f"), [](std::ostream&) {}), InputError);
+  EXPECT_EQ(dir.names(), Names{"kept"});
+  EXPECT_EQ(slurp(dir.at("kept")), "old");
+  std::filesystem::create_symlink("kept", dir.at("link"));
+  write_file_by(dir.at("link"), [](std::ostream& to) { to << "n" << "ew"; });
+  EXPECT_EQ(slurp(dir.at("kept")), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(dir.at("link")));
+}
+
 TEST(WriteFile, FollowsALinkAndKeepsIt) {
   const TempDir dir;
   dir.write("real.csv", "old");

@@ -89,5 +89,31 @@ TEST(PageDir, ACycleThatDoesNotFitAtOnceIsFusedInParts) {
   EXPECT_EQ(Json::parse(roomy.out)["map_hash"], Json::parse(paged.out)["map_hash"]);
 }
 
+TEST(PageDir, ALogIsFusedAgainOnALittleMemory) {
+  const TempDir dir;
+  const std::string log = dir.at("scans.evilog");
+  const Ran run = evigrid(
+      {"cycle", "--robots", "12", "--grid", "1024", "--cycles", "4", "--warmup", "0", "--log", log, "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto again = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"cycle", "--replay", log, "--json", "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    return evigrid(all);
+  };
+  const Ran full = again({"--memory-mb", "3"});
+  EXPECT_EQ(full.code, 2);
+  EXPECT_NE(full.err.find("--page-dir"), std::string::npos) << full.err;
+  const Ran lost = again({"--page-dir", dir.at("nowhere")});
+  EXPECT_EQ(lost.code, 2);
+  EXPECT_NE(lost.err.find("--page-dir"), std::string::npos) << lost.err;
+  EXPECT_NE(lost.err.find(dir.at("nowhere")), std::string::npos) << lost.err;
+  const Ran paged = again({"--memory-mb", "3", "--page-dir", dir.path().string()});
+  ASSERT_EQ(paged.code, 0) << paged.err;
+  const Json r = Json::parse(paged.out);
+  EXPECT_EQ(r["map_hash"], Json::parse(run.out)["map_hash"]);
+  EXPECT_GT(r["paged_bytes"], 0);
+  EXPECT_LE(r["memory_bytes"], 3 << 20);
+}
+
 }  // namespace
 }  // namespace evigrid::driver

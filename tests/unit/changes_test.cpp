@@ -173,5 +173,36 @@ TEST(Changes, WhereTooMuchWasDroppedAllThatIsLeftIsListed) {
   }
 }
 
+// A fan may reach a tile by a corner in which no cell lies: the tile is made, never changed, and dropped once more.
+TEST(Changes, ATileThatIsDroppedTwiceIsListedOnce) {
+  Map map = with_sensors(make_serial_executor());
+  const CellRect all{-640, -640, 1280, 1280};
+  const std::vector<Mass> wall(static_cast<std::size_t>(all.width * all.height), Mass{0, 0.9f, 0.1f});
+  map.write(all, wall, all.width);
+  const std::size_t written = map.tiles();
+  map.clear(all);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> range_m(0.3f, 4.5f);
+  std::size_t never_changed = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<float> ranges_m(40, range_m(random));
+    const Reading reading{1, ranges_m};
+    const std::uint64_t before = map.version();
+    map.integrate(Scan{0, {0.013 * i, -0.017 * i, 0.0314 * i}, {&reading, 1}});
+    never_changed += map.tiles() - map.changes(before).rects.size();
+    map.clear(all);
+  }
+  ASSERT_GT(never_changed, 0U);
+  const MapView view = map.view();
+  for (const Changes& c : {map.changes(0), view.changes(0)}) {
+    EXPECT_FALSE(c.cleared);
+    std::vector<std::pair<std::int64_t, std::int64_t>> tiles;
+    for (const CellRect& r : c.rects) tiles.emplace_back(r.x, r.y);
+    std::sort(tiles.begin(), tiles.end());
+    EXPECT_EQ(std::adjacent_find(tiles.begin(), tiles.end()), tiles.end());
+    EXPECT_EQ(tiles.size(), written);
+  }
+}
+
 }  // namespace
 }  // namespace evigrid

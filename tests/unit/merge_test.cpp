@@ -163,6 +163,18 @@ TEST(Merge, ProtectedCellsThatHadFadedAwayKeepWhatIsMergedIntoThem) {
   EXPECT_EQ(into.mass(c).e, 0.5f);
 }
 
+// As a reading that contradicts the cell wholly: docs/maths.md.
+TEST(Merge, TotalConflictWeighsAsMuchAsThatOfAReading) {
+  for (const Rule rule : {Rule::dempster, Rule::yager, Rule::fuzzy}) {
+    const MapParams params{.rule = rule, .keep_con = true};
+    Map into(params, make_serial_executor()), from(params, make_serial_executor());
+    into.write({0, 0, 1, 1}, std::vector<Mass>{{1, 0, 0}}, 1);
+    from.write({0, 0, 1, 1}, std::vector<Mass>{{0, 1, 0}}, 1);
+    merge(into, from.view());
+    EXPECT_NEAR(into.con({0, 0}), -std::log(1e-12), 1e-4) << name(rule);
+  }
+}
+
 TEST(Merge, ManyMapsInTheirOrderAndViewsStay) {
   const auto d = testing::drive(Model::li2014, 24, 6);
   const MapParams params{.rule = Rule::pcr5};

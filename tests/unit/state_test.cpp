@@ -93,6 +93,35 @@ TEST(Undo, LeavesWhatWasMetOnTheWay) {
   EXPECT_NE(map.hash(), before.hash());
 }
 
+TEST(Undo, MakesNoTilesWhereTheyWereForgotten) {
+  const auto d = testing::drive(Model::li2014, 24, 34);
+  const CellRect left{-6400, -6400, 6400, 12800}, all{-6400, -6400, 12800, 12800};  // along the tiles
+  for (const Rule rule : {Rule::dempster_log, Rule::murphy}) {
+    const MapParams params{.rule = rule};
+    Map map = mapped(*d, params, d->scans);
+    map.clear(left);
+    Map kept = mapped(*d, params, d->scans);
+    kept.undo(d->scans.back());
+    kept.clear(left);
+    const std::size_t tiles = map.tiles();
+    const std::uint64_t version = map.version();
+    const Report back = map.undo(d->scans.back());
+    EXPECT_GT(back.cells_updated, 0U);
+    EXPECT_EQ(map.tiles(), tiles);
+    EXPECT_EQ(map.hash(), kept.hash());
+    EXPECT_TRUE(cells_of(map) == cells_of(kept));
+    for (const CellRect& r : map.changes(version).rects) EXPECT_GE(r.x, 0);
+    map.clear(all);
+    const std::uint64_t empty = map.version();
+    EXPECT_EQ(map.undo(d->scans).cells_updated, 0U);  // under sonars and laser: nothing is there
+    EXPECT_EQ(map.tiles(), 0U);
+    EXPECT_EQ(map.version(), empty);
+    EXPECT_TRUE(map.changes(empty).rects.empty());
+    map.integrate(d->scans);  // owes nothing for what was taken back from nowhere
+    EXPECT_EQ(map.hash(), mapped(*d, params, d->scans).hash());
+  }
+}
+
 TEST(Undo, IsRefusedWhereCellsAreNoSums) {
   for (const Rule rule : map_rules()) {
     Map map({.rule = rule}, make_serial_executor());

@@ -120,10 +120,10 @@ double median(std::vector<double>& values) {
 }
 
 std::vector<Calibration> calibrate(const Log& log, const CalibrationLimits& limits) {
-  if (!(limits.bin_m > 0) || !std::isfinite(limits.bin_m)) {
-    throw InputError(fmt::format("--bin: {} is not above 0 m", limits.bin_m));
+  for (const auto& [name, value] : {std::pair{"--bin", limits.bin_m}, {"--outlier", limits.outlier_m}}) {
+    if (!(value > 0)) throw InputError(fmt::format("{}: {} is not above 0 m", name, value));
+    if (value > kAbsurdRange_m) throw InputError(fmt::format("{}: {} is above {:g} m", name, value, kAbsurdRange_m));
   }
-  if (!(limits.outlier_m > 0)) throw InputError(fmt::format("--outlier: {} is not above 0 m", limits.outlier_m));
   if (log.truth_m.empty()) {
     throw InputError(fmt::format("format {} holds no true ranges: there is nothing to calibrate against", log.format));
   }

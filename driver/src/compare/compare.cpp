@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <utility>
 
 #include "bag/bag.hpp"
 #include "compare/table.hpp"
@@ -16,7 +17,7 @@
 #include "mapping.hpp"
 #include "model_options.hpp"
 #include "out/out_dir.hpp"
-#include "picture/sheet.hpp"
+#include "picture/growing_sheet.hpp"
 #include "score/truth.hpp"
 #include "simulated.hpp"
 
@@ -74,19 +75,27 @@ std::string name_of(const CompareOptions& o) {
   return std::filesystem::path(path).filename().string();
 }
 
-struct Result {
-  CompareRow row;
-  Layers layers;
+/// One row to be: which readings, and how they are fused.
+struct Job {
+  const Subject* subject;
+  MappingOptions options;  // as the row's rule and model want them
 };
 
-Result fuse_one(const Subject& subject, const MappingOptions& options, const Plan& plan,
-                const std::optional<scenes::TruthGrid>& truth) {
-  const Fused fused = fuse(subject.log, options, plan);
-  Result out;
-  out.layers = render_layers(fused.map, options.max_image_mb);
-  CompareRow& r = out.row;
-  r.robot = subject.robot;
-  r.rule = options.rule;
+Layers layers_of(const Job& job) {
+  return render_layers(fuse(job.subject->log, job.options, make_plan(job.options)).map, job.options.max_image_mb);
+}
+
+/// The row; the sheet gets the picture, and the map is gone again.
+CompareRow fuse_one(const Job& job, const std::optional<scenes::TruthGrid>& truth, GrowingSheet& sheet) {
+  const Log& log = job.subject->log;
+  const Plan plan = make_plan(job.options);
+  const Fused fused = fuse(log, job.options, plan);
+  const Layers layers = render_layers(fused.map, job.options.max_image_mb);
+  sheet.add(layers);
+  CompareRow r;
+  r.robot = job.subject->robot;
+  r.rule = job.options.rule;
+  r.cell_m = layers.cell_m;
   r.model = fmt::format("{}", fmt::join(fused.models, "+"));
   r.cells_updated = fused.report.cells_updated;
   r.readings_used = fused.report.readings_used;
@@ -95,21 +104,21 @@ Result fuse_one(const Subject& subject, const MappingOptions& options, const Pla
   r.fusion_s = fused.fusion_s;
   r.map_hash = fmt::format("{:016x}", fused.map.hash());
   double conflict = 0, unknown = 0, touched = 0;
-  const std::size_t n = out.layers.cells();
+  const std::size_t n = layers.cells();
   for (std::size_t i = 0; i < n; ++i) {
-    unknown += out.layers.u()[i];
-    if (out.layers.u()[i] == 1) continue;
-    conflict += out.layers.conflict()[i];
+    unknown += layers.u()[i];
+    if (layers.u()[i] == 1) continue;
+    conflict += layers.conflict()[i];
     ++touched;
   }
   r.mean_conflict = touched > 0 ? conflict / touched : 0;
   r.ignorance = n > 0 ? unknown / static_cast<double>(n) : 1;
-  Log as_mapped = subject.log;  // by the model and the limits that made the map
+  Log as_mapped = log;  // by the model and the limits that made the map
   for (std::size_t i = 0; i < as_mapped.sensors.size(); ++i) as_mapped.sensors[i].sensor = fused.map.sensors()[i];
-  r.rerendered = rerender(out.layers, as_mapped);
+  r.rerendered = rerender(layers, as_mapped);
   r.flips = readings_to_flip(plan.params);
-  if (truth) r.score = score(out.layers, *truth);
-  return out;
+  if (truth) r.score = score(layers, *truth);
+  return r;
 }
 
 /// Forgetting and readings that are no distinct evidence ask for cells that hold masses: why a rule's do not serve, or
@@ -124,13 +133,6 @@ std::string why_not_with(const MappingOptions& o, const Log& log) {
     return bad.what();
   }
   return {};
-}
-
-CellRect around(const CellRect& a, const CellRect& b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  const std::int64_t x = std::min(a.x, b.x), y = std::min(a.y, b.y);
-  return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
 }
 
 std::string caption(const CompareRow& r) {
@@ -149,6 +151,39 @@ std::vector<std::string> figures(const CompareRow& r) {
   }
   lines.push_back(fmt::format("{} cell updates in {:.1f} ms", r.cells_updated, r.fusion_s * 1e3));
   return lines;
+}
+
+/// What fits together, in the order of the table. Throws InputError when nothing does.
+std::vector<Job> jobs_of(const std::vector<Subject>& subjects, const CompareOptions& o,
+                         const std::vector<std::string>& sonar_models) {
+  std::vector<Job> jobs;
+  std::string not_together;
+  for (const Subject& subject : subjects) {
+    MappingOptions options = o.mapping;
+    const bool cones = std::any_of(subject.log.sensors.begin(), subject.log.sensors.end(),
+                                   [](const LogSensor& s) { return s.sensor.model != Model::beam; });
+    if (cones && sonar_models.empty()) throw InputError("--models: names no model for sonars");
+    if (subject.scene) use_map_options(*subject.scene, options);
+    for (const std::string& rule : o.rules) {
+      for (const std::string& model : cones ? sonar_models : std::vector<std::string>{""}) {
+        if (!model.empty()) {
+          if (const auto why = why_not_together(parse_map_rule(rule), parse_model(model)); !why.empty()) {
+            not_together = fmt::format("{} cannot be fused by {}: {}", model, rule, why);
+            continue;
+          }
+        }
+        options.rule = rule;
+        options.model = model;
+        if (const auto why = why_not_with(options, subject.log); !why.empty()) {
+          not_together = why;
+          continue;
+        }
+        jobs.push_back({&subject, options});
+      }
+    }
+  }
+  if (jobs.empty()) throw InputError(not_together);
+  return jobs;
 }
 
 }  // namespace
@@ -170,68 +205,40 @@ void compare(const CompareOptions& given) {
   if (!o.mapping.json.empty() && o.mapping.json != "-") require_writable(o.mapping.json);
   const std::vector<Subject> subjects = read_subjects(o);
 
-  std::vector<Result> results;
-  std::optional<scenes::TruthGrid> truth;
-  std::string no_truth, not_together;
-  CellRect all{};
   if (!o.mapping.cell_m) {  // one for all, the finest that any of them would take: scores and sheet compare cells
     for (const Subject& subject : subjects) {
       if (!subject.scene) continue;
       o.mapping.cell_m = std::min(o.mapping.cell_m.value_or(subject.scene->map.cell_m), subject.scene->map.cell_m);
     }
   }
-  for (const Subject& subject : subjects) {
-    MappingOptions options = o.mapping;
-    const bool cones = std::any_of(subject.log.sensors.begin(), subject.log.sensors.end(),
-                                   [](const LogSensor& s) { return s.sensor.model != Model::beam; });
-    if (cones && sonar_models.empty()) throw InputError("--models: names no model for sonars");
-    if (subject.scene) use_map_options(*subject.scene, options);
-    for (const std::string& rule : o.rules) {
-      for (const std::string& model : cones ? sonar_models : std::vector<std::string>{""}) {
-        if (!model.empty()) {
-          if (const auto why = why_not_together(parse_map_rule(rule), parse_model(model)); !why.empty()) {
-            not_together = fmt::format("{} cannot be fused by {}: {}", model, rule, why);
-            continue;
-          }
-        }
-        options.rule = rule;
-        options.model = model;
-        if (const auto why = why_not_with(options, subject.log); !why.empty()) {
-          not_together = why;
-          continue;
-        }
-        const Plan plan = make_plan(options);
-        if (subject.scene && !truth && no_truth.empty()) {
-          SceneTruth known = scene_truth(*subject.scene, plan.params.cell_m);
-          truth = std::move(known.grid);
-          no_truth = std::move(known.why_not);
-        }
-        results.push_back(fuse_one(subject, options, plan, truth));
-        all = around(all, results.back().layers.rect);
-      }
-    }
-  }
-
-  if (results.empty()) throw InputError(not_together);
-
-  std::vector<CompareRow> rows;
-  std::vector<Panel> panels;
+  const std::vector<Job> jobs = jobs_of(subjects, o, sonar_models);
+  SceneTruth truth;
+  if (const auto& scene = jobs.front().subject->scene)
+    truth = scene_truth(*scene, make_plan(jobs.front().options).params.cell_m);
   // The sheet shows the world; readings that leak far outside of it must not make it small.
-  const SheetScale scale = sheet_scale(truth ? CellRect{truth->x, truth->y, truth->width, truth->height} : all,
-                                       results.size() < kMostColumns ? kFewPanel_px : kPanel_px);
-  if (truth) panels.push_back({"truth", {"dark: surfaces  pale: free  grey: out of sight"}, thumbnail(*truth, scale)});
-  for (const Result& r : results) {
-    rows.push_back(r.row);
-    panels.push_back({caption(r.row), figures(r.row), thumbnail(r.layers, scale)});
-  }
-  const std::string title = fmt::format("evigrid compare: {}, cell {:g} m", name_of(o), results.front().layers.cell_m);
+  std::optional<CellRect> world;
+  if (truth.grid) world = {truth.grid->x, truth.grid->y, truth.grid->width, truth.grid->height};
+  const int panel_px = jobs.size() < kMostColumns ? kFewPanel_px : kPanel_px;
+
+  GrowingSheet sheet(panel_px, world);
+  std::vector<CompareRow> rows;
+  for (const Job& job : jobs) rows.push_back(fuse_one(job, truth.grid, sheet));
+  std::vector<Thumbnail> pictures = sheet.finish([&](std::size_t i) { return layers_of(jobs[i]); });
+  std::vector<Panel> panels;
+  if (world)
+    panels.push_back({"truth",
+                      {"dark: surfaces  pale: free  grey: out of sight"},
+                      thumbnail(*truth.grid, sheet_scale(*world, panel_px))});
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    panels.push_back({caption(rows[i]), figures(rows[i]), std::move(pictures[i])});
+  const std::string title = fmt::format("evigrid compare: {}, cell {:g} m", name_of(o), rows.front().cell_m);
   const int count = static_cast<int>(panels.size());
   const int columns = count <= kMostColumns ? count : count % 3 == 0 ? 3 : kMostColumns;
   out.write("sheet.png", png(draw_sheet(title, panels, columns)), {});
   out.write("compare.csv", to_csv(rows));
   out.write("compare.md", to_markdown(rows));
   nlohmann::ordered_json report{{"input", name_of(o)}, {"rows", to_json(rows)}, {"wall_s", seconds_since(start)}};
-  if (!no_truth.empty()) report["truth"] = {{"skipped", no_truth}};
+  if (!truth.why_not.empty()) report["truth"] = {{"skipped", truth.why_not}};
   const std::string bytes = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   out.write("report.json", bytes);
   if (!o.mapping.json.empty() && o.mapping.json != "-") out.write_outside(o.mapping.json, bytes);

@@ -14,6 +14,7 @@ namespace evigrid::driver {
 
 struct CompareRow {
   std::string robot, rule, model;
+  double cell_m = 0;  ///< side of a cell
   std::uint64_t cells_updated = 0, readings_used = 0, readings_refused = 0, total_conflicts = 0;
   double fusion_s = 0;
   double mean_conflict = 0;  ///< running sum of k a touched cell

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cycle/replay.hpp"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "cycle/fleet_run.hpp"
@@ -15,7 +19,7 @@ constexpr std::size_t kBatch = 1024;  // scans a call of the engine
 
 class Replay {
  public:
-  Replay(ScanLogReader& log, Replayed& out) : log_(log), out_(out), views_(out.map) {}
+  Replay(ScanLogReader& log, Replayed& out, bool pages) : log_(log), out_(out), pages_(pages), views_(out.map) {}
 
   /// One pass over the log, with the scans that are wanted.
   template <class Wanted>
@@ -34,13 +38,14 @@ class Replay {
   void fuse() {
     if (batch_.empty()) return;
     const auto start = Clock::now();
-    out_.report += out_.map.integrate(views_.of(batch_));
+    out_.report += integrate_what_fits(out_.map, views_.of(batch_), pages_);
     out_.fusion_s += seconds_since(start);
     out_.scans += batch_.size();
     batch_.clear();
   }
   ScanLogReader& log_;
   Replayed& out_;
+  bool pages_;
   ScanViews views_;
   std::vector<FleetScan> batch_;
 };
@@ -54,19 +59,16 @@ ReplayPart parse_part(const std::string& text) {
   throw InputError("--part: '" + text + "' is unknown; known: all, fused, late");
 }
 
-Replayed replay(const std::string& path, ReplayPart part, Kernel kernel, std::shared_ptr<Executor> executor) {
+Replayed replay(const std::string& path, ReplayPart part, LoadOptions how) {
   ScanLogReader log(path);
+  const bool pages = how.page_directory.has_value();
   try {
-    Replayed out{load(std::as_bytes(std::span(log.map_bytes())), {std::move(executor), kernel, {}}, path),
-                 {},
-                 0,
-                 log.scans(),
-                 0};
+    Replayed out{load(std::as_bytes(std::span(log.map_bytes())), how, path), {}, 0, log.scans(), 0};
     std::size_t ranges = 0;
     for (const Sensor& s : out.map.sensors()) ranges += static_cast<std::size_t>(s.beams);
     if (ranges != log.ranges_per_scan()) throw InputError(path + ": its sensors do not make the ranges of its scans");
     if (out.map.tiles() != 0) throw InputError(path + ": its map is not empty");
-    Replay replaying(log, out);
+    Replay replaying(log, out, pages);
     if (part == ReplayPart::all) replaying.pass([](const LoggedScan&) { return true; });
     if (part != ReplayPart::all) replaying.pass([](const LoggedScan& s) { return s.fused; });
     if (part == ReplayPart::late) replaying.pass([](const LoggedScan& s) { return !s.fused; });
@@ -74,7 +76,9 @@ Replayed replay(const std::string& path, ReplayPart part, Kernel kernel, std::sh
   } catch (const MapFileError& bad) {
     throw InputError(bad.what());
   } catch (const std::length_error& full) {
-    throw InputError(path + ": " + full.what());
+    throw InputError(fmt::format("{}: {}; more of --memory-mb or a --page-dir helps", path, full.what()));
+  } catch (const std::system_error& disk) {
+    throw InputError(fmt::format("--page-dir: {}", disk.what()));
   }
 }
 

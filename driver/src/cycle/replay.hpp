@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scan log fused again, whole or in part.
 #pragma once
-#include <memory>
 #include <string>
 
 #include "evigrid/evigrid.hpp"
@@ -23,6 +22,7 @@ struct Replayed {
   double fusion_s = 0;
 };
 
-Replayed replay(const std::string& path, ReplayPart part, Kernel kernel, std::shared_ptr<Executor> executor);
+/// The log begins with the empty map: `how` says what load() is told of it. Throws InputError.
+Replayed replay(const std::string& path, ReplayPart part, LoadOptions how);
 
 }  // namespace evigrid::driver

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
@@ -104,7 +105,10 @@ void ScanLogWriter::commit() {
 }
 
 ScanLogReader::ScanLogReader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
-  if (!in_ || std::filesystem::is_directory(path)) throw InputError(path + ": cannot be read");
+  const int error = in_ ? 0 : errno;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw InputError(path + ": is a folder, no scan log");
+  if (error != 0) throw InputError(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
   std::array<char, 8> magic{};
   Sizes sizes{};
   get(magic.data(), magic.size(), "its head");

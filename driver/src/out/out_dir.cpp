@@ -65,6 +65,26 @@ void write_all(const fs::path& path, const fs::path& named, std::span<const std:
   }
 }
 
+/// What the writer writes, or an exception; the file stays as far as it came.
+void write_stream(const fs::path& path, const fs::path& named, const std::function<void(std::ostream&)>& writer) {
+  std::ofstream out(path, std::ios::binary);
+  try {
+    if (out) writer(out);
+  } catch (const std::exception&) {
+    if (out) throw;  // else the writer complains of the stream, which has no name
+  }
+  out.close();
+  if (!out) fail(named, "the disk may be full");
+}
+
+void rename_into_place(const fs::path& temporary, const fs::path& target, const fs::path& named) {
+  std::error_code error, ignored;
+  fs::rename(temporary, target, error);
+  if (!error) return;
+  fs::remove(temporary, ignored);
+  fail(named, error.message());
+}
+
 std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
@@ -120,15 +140,7 @@ void OutDir::write(const std::string& name, std::span<const std::byte> head, std
 
 void OutDir::write_by(const std::string& name, const std::function<void(std::ostream&)>& writer) {
   stage(path_ / name, {}, {});
-  const Staged s = staged_.back();
-  std::ofstream out(s.temporary, std::ios::binary);
-  try {
-    if (out) writer(out);
-  } catch (const std::exception&) {
-    if (out) throw;  // else the writer complains of the stream, which has no name
-  }
-  out.close();
-  if (!out) fail(s.target, "the disk may be full");
+  write_stream(staged_.back().temporary, staged_.back().target, writer);
 }
 
 void OutDir::write_at(const std::string& name, const std::function<void(const fs::path&)>& writer) {
@@ -171,13 +183,21 @@ void write_file(const std::string& path, std::span<const std::byte> bytes) {
   if (is_special(target)) return write_all(target, path, bytes, {});
   const fs::path temporary = temporary_beside(target);
   write_all(temporary, path, bytes, {});
-  std::error_code error;
-  fs::rename(temporary, target, error);
-  if (error) {
+  rename_into_place(temporary, target, path);
+}
+
+void write_file_by(const std::string& path, const std::function<void(std::ostream&)>& writer) {
+  const fs::path target = followed(fs::absolute(path));
+  if (is_special(target)) return write_stream(target, path, writer);
+  const fs::path temporary = temporary_beside(target);
+  try {
+    write_stream(temporary, path, writer);
+  } catch (...) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
-    fail(path, error.message());
+    throw;
   }
+  rename_into_place(temporary, target, path);
 }
 
 void require_writable(const std::string& path) {

@@ -54,6 +54,8 @@ class OutDir {
 /// One file, written beside and renamed; throws InputError. For commands whose only output is a file.
 void write_file(const std::string& path, std::string_view bytes);
 void write_file(const std::string& path, std::span<const std::byte> bytes);
+/// The same, by something that writes into a stream piece by piece; it may end early when the stream has failed.
+void write_file_by(const std::string& path, const std::function<void(std::ostream&)>& writer);
 
 /// Throws InputError when `path` cannot become a file: to be asked before long work.
 void require_writable(const std::string& path);

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -29,10 +32,19 @@ std::string to_text(const std::vector<Revision>& revisions) {
 }
 
 std::vector<Revision> read_revisions(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw InputError(path + ": is a folder, no file of `evigrid train`");
+  errno = 0;
   std::ifstream file(path);
-  if (!file) throw InputError(path + ": cannot be read");
-  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (!file) throw InputError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   const auto fail = [&](const std::string& why) { throw InputError(path + ": " + why); };
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(file, nullptr, false);
+  } catch (const std::ios_base::failure&) {  // of the file itself
+    fail("cannot be read");
+  }
   if (!json.is_object() || json.value("format", nlohmann::json()) != kFormat)
     fail("is no file of `evigrid train` (format: " + std::string(kFormat) + ")");
   const auto sensors = json.find("sensors");

@@ -101,9 +101,10 @@ class Map {
   Report integrate(std::span<const Scan>);
 
   /// Takes scans back that were integrated before: the cells get the bits they would have without them, whatever
-  /// readings came between. (Cells that were cleared, written or left by the window since hold nothing of them: there
-  /// it takes away what is not there.) Rules whose cells are sums (dempster_log, murphy); throws std::logic_error for
-  /// others. The planes of conflict keep what was met on the way, and the last stamp stays.
+  /// readings came between. (Cells that were cleared, written or left by the window since hold nothing of them: where
+  /// their tile is gone it makes none, elsewhere it takes away what is not there.) Rules whose cells are sums
+  /// (dempster_log, murphy); throws std::logic_error for others. The planes of conflict keep what was met on the way,
+  /// and the last stamp stays.
   Report undo(const Scan&);
   Report undo(std::span<const Scan>);
 

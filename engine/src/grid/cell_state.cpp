@@ -97,6 +97,10 @@ CellPlanes joined(const MapParams& p, const CellPlanes& a, const CellPlanes& b) 
   return out;
 }
 
+float weight_of_conflict(float k) noexcept {
+  return -static_cast<float>(portable_log(std::max(1 - static_cast<double>(k), static_cast<double>(kLeastMass))));
+}
+
 std::string_view why_no_mass(Rule rule, const Mass& m) noexcept {
   for (const float part : {m.e, m.o, m.u, m.c}) {
     if (!(part >= 0 && part <= 1)) return "has a part outside [0, 1]";

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the bytes of a map file come from: memory, or a file of which only the part asked for is read.
 #pragma once
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -22,8 +24,9 @@ class Source {
   explicit Source(const std::filesystem::path& path) : name_(path.string()) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) fail("is a folder, not a map");
+    errno = 0;
     file_.open(path, std::ios::binary | std::ios::ate);
-    if (!file_) fail("cannot be opened");
+    if (!file_) fail(std::string("cannot be opened: ") + std::strerror(errno));
     size_ = static_cast<std::uint64_t>(file_.tellg());
   }
   [[nodiscard]] std::uint64_t size() const noexcept { return size_; }

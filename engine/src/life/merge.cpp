@@ -147,7 +147,7 @@ class TileMerge {
   void add_history(float* cell, const CellState& from, float k, MergeReport& report) const noexcept {
     const CellLayout& l = into_.layout();
     if (l.conflict >= 0) cell[l.conflict * kCells] += from.conflict + k;
-    if (l.con >= 0) cell[l.con * kCells] += from.con - std::log1p(-std::min(k, 0.999999f));
+    if (l.con >= 0) cell[l.con * kCells] += from.con + weight_of_conflict(k);
     if (l.last_conflict >= 0) cell[l.last_conflict * kCells] = k;
     report.max_conflict = std::max(report.max_conflict, k);
   }

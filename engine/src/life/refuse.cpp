@@ -31,7 +31,7 @@ std::vector<TileIndex> tiles_of_scan(Map& map, const Scan& scan) {
   s.footprints.clear();
   Report ignored;
   gate_scan(scan, p.sensors, p.params, s.footprints, ignored);
-  bin(s.footprints, p.table, p.store, p.admission, p.executor, s.plan);
+  bin(s.footprints, p.table, p.store, p.admission, Missing::made, p.executor, s.plan);
   std::vector<TileIndex> out;
   for (const TileWork& w : s.plan.tiles) out.push_back(w.at);
   return out;

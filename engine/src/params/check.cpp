@@ -26,7 +26,8 @@ void check_rows(std::span<const ParamRow<T>> rows, const T& of, std::vector<Para
     const double v = row.get(of);
     if (!(v >= row.least && v <= row.most)) {
       errors.push_back({std::string(row.field), "is " + number(v) + ", must be within [" + number(row.least) + ", " +
-                                                    number(row.most) + "] " + std::string(row.unit)});
+                                                    number(row.most) + "]" + (row.unit.empty() ? "" : " ") +
+                                                    std::string(row.unit)});
     }
   }
 }

@@ -44,8 +44,12 @@ void list_reaches(std::vector<Footprint>& footprints, const kernels::KernelTable
 /// Places of tiles in the batch: of those that exist in the tile itself, of the others in a map.
 class Places {
  public:
-  Places(TileStore& store, const Admission& admission, Plan& plan)
-      : store_(store), admission_(admission), restricted_(admission.restricts()), plan_(plan) {}
+  Places(TileStore& store, const Admission& admission, Missing missing, Plan& plan)
+      : store_(store),
+        admission_(admission),
+        restricted_(admission.restricts()),
+        makes_(missing == Missing::made),
+        plan_(plan) {}
   static constexpr std::uint32_t kRefused = ~std::uint32_t{0};
 
   std::uint32_t of(const Reached& r) {
@@ -56,6 +60,7 @@ class Places {
       }
       return tile->place;
     }
+    if (!makes_) return kRefused;
     const auto [it, is_new] = missing_.try_emplace(r.at, kRefused);
     if (is_new) it->second = add(r.at, nullptr);
     return it->second;
@@ -77,7 +82,7 @@ class Places {
   }
   TileStore& store_;
   const Admission& admission_;
-  bool restricted_;
+  bool restricted_, makes_;
   Plan& plan_;
   std::map<TileIndex, std::uint32_t> missing_;
 };
@@ -126,12 +131,12 @@ void share_out(Plan& p, int threads, bool fans) {
 }  // namespace
 
 void bin(std::vector<Footprint>& footprints, const kernels::KernelTable& table, TileStore& store,
-         const Admission& admission, Executor& executor, Plan& plan) {
+         const Admission& admission, Missing missing, Executor& executor, Plan& plan) {
   plan.batch = store.begin_operation();
   plan.tiles.clear();
   plan.unsorted.clear();
   list_reaches(footprints, table, store, admission, executor, plan);
-  Places places(store, admission, plan);
+  Places places(store, admission, missing, plan);
   for (const ReachList& list : std::span(plan.lists).first(plan.lists_used)) {
     for (const Reached& r : list.reached()) {
       const std::uint32_t place = places.of(r);

@@ -48,8 +48,9 @@ struct Plan {
   std::uint64_t batch = 0;
 };
 
-/// Compiles the footprints, and creates missing tiles (std::length_error at the memory cap, before any cell is
-/// changed). Tiles that admission refuses are not reached.
-void bin(std::vector<Footprint>&, const kernels::KernelTable&, TileStore&, const Admission&, Executor&, Plan&);
+enum class Missing : bool { left_out, made };
+/// Compiles the footprints, and creates missing tiles unless they are left out (std::length_error at the memory cap,
+/// before any cell is changed). Tiles that admission refuses are not reached.
+void bin(std::vector<Footprint>&, const kernels::KernelTable&, TileStore&, const Admission&, Missing, Executor&, Plan&);
 
 }  // namespace evigrid

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evigrid/combine.hpp"
+#include "grid/cell_state.hpp"
 #include "kernels/row/portable_math.hpp"
 
 namespace evigrid {
@@ -100,10 +101,7 @@ void DependentReadings::fuse(const MapParams& params, const TileStore& store, ke
       if (open) cell[l.paradox * kCells + i] = floored(c[j]);
       stats.max_conflict = std::max(stats.max_conflict, k[j]);
       if (l.conflict >= 0) cell[l.conflict * kCells + i] += k[j];
-      if (l.con >= 0) {
-        const double left = std::max(1 - static_cast<double>(k[j]), static_cast<double>(kLeastMass));
-        cell[l.con * kCells + i] -= static_cast<float>(kernels::portable_log(left));
-      }
+      if (l.con >= 0) cell[l.con * kCells + i] += weight_of_conflict(k[j]);
       if (l.last_conflict >= 0) cell[l.last_conflict * kCells + i] = k[j];
     }
   }
