@@ -10,7 +10,9 @@ nvcc=$(PATH="$PATH:/usr/local/cuda/bin" nvcc --version 2>/dev/null || true)
 if [[ $nvcc =~ release\ (1[2-9]|[2-9][0-9])\. ]]; then
   cuda=(-DEVIGRID_CUDA=ON -DEVIGRID_CUDA_ARCHITECTURES=90)
 fi
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=ON -DEVIGRID_BUILD_BENCH=ON \
+generator=(-G Ninja)  # of a build folder that is there CMake would refuse another
+if [ -f build/CMakeCache.txt ]; then generator=(); fi
+cmake -S . -B build "${generator[@]}" -DCMAKE_BUILD_TYPE=Release -DEVIGRID_BUILD_TESTS=ON -DEVIGRID_BUILD_BENCH=ON \
   -DEVIGRID_BUILD_SHARED=ON -DEVIGRID_BUILD_C=ON -DEVIGRID_BUILD_PYTHON=ON \
   -DPython3_EXECUTABLE=/usr/bin/python3 "${cuda[@]}" >/dev/null
 cmake --build build

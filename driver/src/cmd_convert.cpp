@@ -82,7 +82,7 @@ void convert(Args args, const CLI::App& command) {
                  "is for plans; the cells of a saved map are what they are");
   }
   std::optional<ExportFormat> format;
-  if (!ours) format = args.to.checked();
+  if (!ours) format = args.to.checked(command);
   if (ours) require_writable(args.to.out);
   if (is_plan(args.in)) {
     const Map map = read_plan(args);

@@ -171,7 +171,9 @@ Json replay_log(const FleetOptions& o, std::optional<std::size_t> memory_cap_byt
 void run_cycle(const FleetOptions& o, const CLI::App& command) {
   std::optional<std::size_t> replay_cap;  // none given: that of the run which wrote the log
   if (o.replay.empty()) {
-    if (o.part != "all") throw InputError("--part: is for --replay");
+    refuse_given(command, {"--part"}, "is for --replay");
+    if (!o.find_max) refuse_given(command, {"--most-robots"}, "is for --find-max");
+    if (parse_policy(o.policy) == Policy::none) refuse_given(command, {"--slice"}, "is for --policy backlog or skip");
     (void)plan_fleet(o);
     for (const Sweep& sweep : parse_sweeps(o.sweeps))
       for (const double value : sweep.values) (void)plan_fleet(with(o, sweep.what, value));

@@ -18,8 +18,8 @@ struct Args {
   ExportArgs to;
 };
 
-void export_saved(Args args) {
-  const ExportFormat format = args.to.checked();
+void export_saved(Args args, const CLI::App& command) {
+  const ExportFormat format = args.to.checked(command);
   const SavedMap saved = open_saved_map(args.map, nullptr, args.to.region_m);
   const CellRect rect =
       args.to.region_m.empty() ? saved.map.bounds() : cells_of(args.to.region_m, saved.map.params().cell_m);
@@ -47,7 +47,7 @@ void add_export(CLI::App& app) {
       "  evigrid export out -o house.yaml --mode scale --occupied 0.7 --free 0.3\n"
       "  evigrid export out -o house.bt --slab 0,1.2\n"
       "  evigrid export out -o house.bag --topic /map --region=-2,-2,6,4\n");
-  command->callback([args] { export_saved(*args); });
+  command->callback([args, command] { export_saved(*args, *command); });
 }
 
 }  // namespace evigrid::driver

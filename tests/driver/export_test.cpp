@@ -236,13 +236,45 @@ TEST(Export, BadInputIsNamedAndLeavesNothing) {
   refused({"export", out, "-o", dir.at("x.csv"), "--planes", "e,q"}, "--planes: 'q' is unknown");
   refused({"export", out, "-o", dir.at("x.csv"), "--planes", "e,e"}, "given twice");
   refused({"export", out, "-o", dir.at("x.csv"), "--planes", "con"}, "keeps no con");
-  refused({"export", out, "-o", dir.at("x.yaml"), "--planes", "e"}, "--planes: is for csv and npy");
   refused({"export", out, "-o", dir.at("x.yaml"), "--free", "0.7"}, "--free, --occupied");
   refused({"export", out, "-o", dir.at("x.yaml"), "--mode", "binary"}, "--mode: 'binary'");
   refused({"export", out, "-o", dir.at("out") + "/map.png/x.csv"}, "cannot be written");
   refused({"export", dir.at("none"), "-o", dir.at("x.csv")}, "none");
   refused({"export", dir.write("junk.evigrid", "junk"), "-o", dir.at("x.csv")}, "is not an evigrid map");
   refused({"export", out, "-o", dir.at("x.csv"), "--region", "1,1,0,0"}, "--region");
+}
+
+TEST(Export, OptionsOfOtherFormatsAreRefused) {
+  const TempDir dir;
+  const std::string out = mapped_drive(dir);
+  const std::string csv = dir.at("x.csv"), yaml = dir.at("x.yaml");
+  const auto before = dir.names();
+  struct Row {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  for (const Row& row : {Row{{"-o", csv, "--mode", "trinary"}, "--mode: is for map_server"},  // the default, but given
+                         Row{{"-o", csv, "--occupied", "0.7"}, "--occupied: is for map_server, octomap and bag"},
+                         Row{{"-o", csv, "--free", "0.1"}, "--free: is for map_server, octomap and bag"},
+                         Row{{"-o", csv, "--max-unknown", "0.5"}, "--max-unknown: is for bag"},
+                         Row{{"-o", csv, "--slab", "0,1"}, "--slab: is for octomap"},
+                         Row{{"-o", "-", "--frame", "f"}, "--frame: is for npy and bag"},
+                         Row{{"-o", csv, "--topic", "/t"}, "--topic: is for bag"},
+                         Row{{"-o", csv, "--max-image-mb", "9"}, "--max-image-mb: is for npy, map_server, octomap"},
+                         Row{{"-o", yaml, "--planes", "e"}, "--planes: is for csv and npy"},
+                         Row{{"-o", yaml, "--metres"}, "--metres: is for csv"},
+                         Row{{"-o", yaml, "--slab", "0,1"}, "--slab: is for octomap"},
+                         Row{{"-o", dir.at("x"), "--format", "npy", "--mode", "raw"}, "--mode: is for map_server"}}) {
+    for (const char* command : {"export", "convert"}) {
+      std::vector<std::string> arguments{command, out};
+      arguments.insert(arguments.end(), row.arguments.begin(), row.arguments.end());
+      const Ran ran = evigrid(arguments);
+      EXPECT_EQ(ran.code, 2) << row.message;
+      EXPECT_TRUE(contains(ran.err, row.message)) << ran.err;
+      EXPECT_EQ(ran.out, "");
+      EXPECT_EQ(dir.names(), before);
+    }
+  }
 }
 
 TEST(Export, WhatWasNeverSeenIsUnknownWhateverTheThresholds) {

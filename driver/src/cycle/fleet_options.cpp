@@ -71,6 +71,7 @@ scenes::Scene robot_of(const FleetOptions& o) {
       robot.sonars.back().T_robot_sensor = scenes::compose({0, 0, turn}, first.T_robot_sensor);
     }
   }
+  if (!o.model.empty() && robot.sonars.empty()) throw InputError(fmt::format("--model: {} has no sonar", o.robot));
   for (scenes::SonarSpec& s : robot.sonars) {
     if (!o.model.empty()) s.model = o.model;
     if (o.max_range_m) s.max_range_m = *o.max_range_m;

@@ -37,6 +37,8 @@ void write_map_server(const Exported& what, const ExportOptions& o, OutDir& out,
 
 }  // namespace
 
+std::string_view name(ExportFormat format) { return kFormats[static_cast<std::size_t>(format)].first; }
+
 ExportFormat parse_export_format(const std::string& name) {
   std::string known;
   for (const auto& [word, format] : kFormats) {
@@ -67,7 +69,7 @@ void require_built(ExportFormat format) {
   if (format == ExportFormat::bag) require_bags("--format bag");
 }
 
-void check_export(const ExportOptions& o, ExportFormat format) {
+void check_export(const ExportOptions& o) {
   if (!(o.free >= 0 && o.free < o.occupied && o.occupied <= 1)) {
     throw InputError(
         fmt::format("--free, --occupied: {} and {} must be within [0, 1], free below occupied", o.free, o.occupied));
@@ -78,8 +80,6 @@ void check_export(const ExportOptions& o, ExportFormat format) {
   parse_pgm_mode(o.mode, "--mode");
   if (!(o.z_low_m <= o.z_high_m)) throw InputError("--slab: z0,z1 in metres, with z0 not above z1");
   if (o.frame.empty() || o.topic.empty()) throw InputError("--frame, --topic: must not be empty");
-  if (!o.planes.empty() && format != ExportFormat::csv && format != ExportFormat::npy)
-    throw InputError("--planes: is for csv and npy");
 }
 
 void export_map(const Exported& what, ExportFormat format, const ExportOptions& o, const std::string& to) {

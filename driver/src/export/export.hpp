@@ -6,6 +6,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "evigrid/map.hpp"
@@ -35,6 +36,8 @@ struct Exported {
   std::string source, hash;
 };
 
+/// As --format has it.
+std::string_view name(ExportFormat format);
 /// From a --format name. Throws InputError listing the names.
 ExportFormat parse_export_format(const std::string& name);
 /// By the extension of -o: .csv, .npy (a folder has none), .yaml/.yml/.pgm, .bt, .bag. Throws InputError.
@@ -42,7 +45,7 @@ ExportFormat export_format_of(const std::filesystem::path& out);
 /// Throws InputError when that format's library was not there when evigrid was built, naming the package.
 void require_built(ExportFormat format);
 /// Throws InputError for thresholds, names and heights that are none.
-void check_export(const ExportOptions& options, ExportFormat format);
+void check_export(const ExportOptions& options);
 
 /// Writes `out` (npy: a folder), all files of it at once when all of them are complete; csv: "-" is standard output.
 void export_map(const Exported& what, ExportFormat format, const ExportOptions& options, const std::string& out);

@@ -2,15 +2,53 @@
 #include "export/export_options.hpp"
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <string>
+
+#include "given_options.hpp"
 #include "region_option.hpp"
 
 namespace evigrid::driver {
+namespace {
 
-ExportFormat ExportArgs::checked() {
+/// Options that say something of some formats alone.
+struct Use {
+  const char* option;
+  std::vector<ExportFormat> formats;
+};
+
+std::vector<Use> uses() {
+  using enum ExportFormat;
+  return {{"--planes", {csv, npy}},
+          {"--metres", {csv}},
+          {"--mode", {map_server}},
+          {"--occupied", {map_server, octomap, bag}},
+          {"--free", {map_server, octomap, bag}},
+          {"--max-unknown", {bag}},
+          {"--slab", {octomap}},
+          {"--frame", {npy, bag}},
+          {"--topic", {bag}},
+          {"--max-image-mb", {npy, map_server, octomap, bag}}};
+}
+
+void refuse_idle(const CLI::App& command, ExportFormat format) {
+  for (const Use& use : uses()) {
+    if (std::find(use.formats.begin(), use.formats.end(), format) != use.formats.end()) continue;
+    std::string names;
+    for (const ExportFormat one : use.formats)
+      names.append(names.empty() ? "" : one == use.formats.back() ? " and " : ", ").append(name(one));
+    refuse_given(command, {use.option}, "is for " + names);
+  }
+}
+
+}  // namespace
+
+ExportFormat ExportArgs::checked(const CLI::App& command) {
   const ExportFormat chosen = format.empty() ? export_format_of(out) : parse_export_format(format);
   require_built(chosen);
+  refuse_idle(command, chosen);
   if (slab_m.size() == 2) options.z_low_m = slab_m[0], options.z_high_m = slab_m[1];
-  check_export(options, chosen);
+  check_export(options);
   return chosen;
 }
 

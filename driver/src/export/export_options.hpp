@@ -14,8 +14,9 @@ struct ExportArgs {
   std::vector<double> region_m, slab_m;
   ExportOptions options;
 
-  /// Checks all that can be wrong before a map is read; fills options. Throws InputError.
-  ExportFormat checked();
+  /// Checks all that can be wrong before a map is read, options of other formats among it; fills options. Throws
+  /// InputError.
+  ExportFormat checked(const CLI::App& command);
 };
 
 void add_export_options(CLI::App& command, ExportArgs& args);

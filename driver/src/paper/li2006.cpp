@@ -64,8 +64,8 @@ PaperResult run_li2006(const PaperOptions& o) {
   }
 
   PaperResult out{Page("Four methods on one drive",
-                       "X. Li, X. Huang, J. Dezert et al.: chapter 14 of Advances and Applications of DSmT for "
-                       "Information Fusion, vol. 2, 2006."),
+                       "X. Huang, X. Li, M. Wang: chapter 14 of Advances and Applications of DSmT for Information "
+                       "Fusion, vol. 2, 2006."),
                   {}};
   const Aim target = paper_room ? Aim::target : Aim::reported;
   const char* how = "cells decided by m(unknown) < 0.5 and the larger of m(occupied), m(empty); Bayes: by P";

@@ -25,7 +25,8 @@ struct Planes {
 
 /// C = A ⊕ B; C may be A (in place). `conflict` (may be null) receives k of each pair. Without an executor it runs on
 /// the calling thread. Returns how many pairs were in total conflict: Dempster answers those with the vacuous mass. No
-/// floor is applied: exact inputs give the exact rule. Throws std::invalid_argument for a kernel that cannot run.
+/// floor is applied: exact inputs give the exact rule. Throws std::invalid_argument for a kernel that cannot run, and
+/// std::runtime_error when a GPU fails (Kernel::cuda). Masses are not checked.
 /// c of A and B, none when null: conjunctive and dsmc keep it, dsmh and germ_pcr2 consume it, the PCR family gives it
 /// back to e and o, the others drop it (fuzzy: ignores it). c of C receives it, 0 where the rule leaves none. Pairs
 /// with a c are combined in double and rounded, by any kernel. What the masses are to bayes and fuzzy: docs/maths.md.
@@ -38,7 +39,8 @@ std::uint64_t combine(Rule, Planes<const double> a, Planes<const double> b, Plan
 /// for each source after the first, without the memory traffic between them. C may be the first source. `conflict` is
 /// the sum over the steps; returned is the number of steps in total conflict. Mass on empty ∩ occupied that a rule
 /// leaves goes on into the next step, whether C keeps it or not. murphy takes the mean of all s sources and combines
-/// it s − 1 times by Dempster's rule. Throws std::invalid_argument for fewer than two sources.
+/// it s − 1 times by Dempster's rule. Throws std::invalid_argument for fewer than two sources and a kernel that cannot
+/// run.
 std::uint64_t combine(Rule, std::span<const Planes<const float>> sources, Planes<float> c, float* conflict,
                       std::size_t n, Kernel = Kernel::automatic, Executor* = nullptr);
 std::uint64_t combine(Rule, std::span<const Planes<const double>> sources, Planes<double> c, double* conflict,
@@ -64,14 +66,16 @@ void to_unorm16(Planes<const float> from, Unorm16Planes<std::uint16_t> to, std::
 /// As the kernels read them. c, where `to` has it, is left alone.
 void from_unorm16(Unorm16Planes<const std::uint16_t> from, Planes<float> to, std::size_t n) noexcept;
 
-/// Kernels compiled in that this processor can run, widest last; and the one `automatic` takes.
+/// What really runs: for `automatic` the widest kernel compiled in that this processor can run. Throws
+/// std::invalid_argument for one that it cannot (but not for cuda, which is answered as it is).
 std::string_view resolve_kernel_name(Kernel);
+/// Whether it is compiled in and runs here.
 bool kernel_available(Kernel) noexcept;
 /// Empty when Kernel::cuda is available, else why not.
 std::string why_no_cuda();
 
-/// Membership in "occupied for planning" (Oriolo et al. 1997; Li, Huang & Dezert 2006, eq. 14.18), from those of empty and of occupied:
-/// 1 − Ψ²(1 − Ω)(1 − ΨΩ)(1 − (1 − Ψ)(1 − Ω)). Never seen is 1.
+/// Membership in "occupied for planning" (Oriolo et al. 1997; Li, Huang & Dezert 2006, eq. 14.18), from those of empty
+/// and of occupied: 1 − Ψ²(1 − Ω)(1 − ΨΩ)(1 − (1 − Ψ)(1 − Ω)). Never seen is 1.
 [[nodiscard]] double fuzzy_map(double empty, double occupied) noexcept;
 
 }  // namespace evigrid

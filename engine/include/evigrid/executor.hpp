@@ -28,7 +28,7 @@ class Executor {
   virtual void run(std::int64_t count, Task task, void* context) = 0;
 };
 
-/// threads = 0 means as many as the machine has. None of them changes a process-wide setting.
+/// threads = 0 (or less) means as many as the machine has. None of them changes a process-wide setting.
 std::unique_ptr<Executor> make_serial_executor();
 std::unique_ptr<Executor> make_tbb_executor(int threads = 0);
 std::unique_ptr<Executor> make_openmp_executor(int threads = 0);
@@ -36,7 +36,8 @@ std::unique_ptr<Executor> make_openmp_executor(int threads = 0);
 /// starts on all of them at once (about a microsecond), where threads that sleep take 50 µs and more to wake. The price
 /// is stated by `spin`: each thread but the caller keeps a core busy for at most that long after the last work; 0
 /// sleeps at once. The caller works too, as worker 0, and never waits for a sleeper. Run from inside a task, beside
-/// another run, or in a forked child, it runs on the calling thread alone.
+/// another run, or in a forked child, it runs on the calling thread alone. Throws std::system_error when a thread
+/// cannot be started.
 inline constexpr std::chrono::microseconds kSpinDefault{20'000};
 std::unique_ptr<Executor> make_spinning_executor(int threads = 0, std::chrono::microseconds spin = kSpinDefault);
 /// By name: "serial", "tbb", "openmp", "spin"; nullptr for another name.

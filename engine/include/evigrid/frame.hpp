@@ -23,19 +23,20 @@ using Subset = unsigned;
 class Frame {
  public:
   /// Shafer's model on 1 … 8 hypotheses. Throws std::invalid_argument for another number, an empty or a repeated name,
-  /// and names with '|' or '&'.
+  /// the names "*" and "{}", and names with '|' or '&'.
   explicit Frame(std::vector<std::string> hypotheses);
-  /// The hyper-power set of two: {first ∩ second, first, second, first ∪ second}.
+  /// The hyper-power set of two: {first ∩ second, first, second, first ∪ second}. Throws for names as above.
   static Frame free_model(std::string first, std::string second);
 
   [[nodiscard]] std::size_t size() const noexcept { return names_.size(); }  ///< hypotheses
   [[nodiscard]] std::span<const std::string> names() const noexcept { return names_; }
-  [[nodiscard]] Subset hypothesis(std::size_t i) const { return sets_.at(i); }
+  [[nodiscard]] Subset hypothesis(std::size_t i) const { return sets_.at(i); }  ///< std::out_of_range from size() on
   [[nodiscard]] Subset everything() const noexcept { return (Subset{1} << parts_) - 1; }
   [[nodiscard]] std::size_t subsets() const noexcept { return std::size_t{1} << parts_; }
   /// Whether a mass may stand there: a non-empty set of the power set, of the hyper-power set in the free model.
   [[nodiscard]] bool has(Subset) const noexcept;
-  /// "A", "A|C", "A&B" (free model only), "*" everything, "{}" the empty set. Throws std::invalid_argument.
+  /// "A", "A|C", "A&B" (free model only), "*" everything, "{}" the empty set. Throws std::invalid_argument for names
+  /// that are not there and intersections that are empty.
   [[nodiscard]] Subset parse(std::string_view) const;
   [[nodiscard]] std::string text(Subset) const;
 
@@ -72,7 +73,10 @@ struct Fused {
 /// tuples.
 [[nodiscard]] Fused combine(Rule, const Frame&, std::span<const Belief> sources);
 
-/// Shafer's discount: every mass times reliability, the rest to ignorance.
+// What follows throws std::invalid_argument for a belief of another size than frame.subsets(); masses are not checked.
+
+/// Shafer's discount: every mass times reliability, the rest to ignorance. std::invalid_argument for a reliability
+/// outside [0, 1].
 [[nodiscard]] Belief discount(const Frame&, const Belief&, double reliability);
 
 [[nodiscard]] double belief(const Frame&, const Belief&, Subset);        ///< Bel: Σ m(X), X ⊆ A, not empty
@@ -82,6 +86,7 @@ struct Fused {
 /// generalised pignistic probability (Dezert, Smarandache & Daniel 2004).
 [[nodiscard]] double pignistic(const Frame&, const Belief&, Subset);
 /// DSmP_ε (Dezert & Smarandache 2008) of a set under Shafer's model: masses shared as m(part) + ε.
+/// std::invalid_argument for the free model and unless ε > 0.
 [[nodiscard]] double dsmp(const Frame&, const Belief&, Subset, double epsilon = 1e-3);
 /// The hypothesis of largest BetP, ties to the lower index; frame.size() when that BetP is below `least`.
 [[nodiscard]] std::size_t decide(const Frame&, const Belief&, double least = 0);

@@ -47,7 +47,7 @@ struct MapFileInfo {
 /// What belongs to this machine and not to the map.
 struct LoadOptions {
   std::shared_ptr<Executor> executor{};  ///< as in Map's constructor
-  std::optional<Kernel> kernel{};        ///< else the saved one, or the widest where that cannot run
+  std::optional<Kernel> kernel{};        ///< else the saved one, or the widest where that cannot run here
   /// Checked before anything is allocated, and then the map's cap; else the saved one. Give it for files of strangers.
   std::optional<std::size_t> memory_cap_bytes{};
   /// As Map::page_to: a map larger than the cap is then loaded nevertheless, most of it into the page file.
@@ -60,7 +60,8 @@ struct LoadOptions {
 };
 
 /// Written beside, synchronised with the disk, renamed: `path` never holds half a map. Runs on the map's executor.
-/// Throws MapFileError when the file cannot be written.
+/// Throws MapFileError when the file cannot be written, or sensors and protected areas are too many for its header
+/// (64 MiB).
 void save(const Map&, const std::filesystem::path& path);
 /// The same bytes into a stream. Throws MapFileError when the stream fails.
 void save(const Map&, std::ostream&);
@@ -70,7 +71,9 @@ void save(const Map&, std::ostream&);
 void save(const MapView&, const std::filesystem::path& path, Executor* = nullptr);
 void save(const MapView&, std::ostream&, Executor* = nullptr);
 
-/// Throws MapFileError for what is damaged, not a map, of a newer version, or larger than the cap.
+/// Throws MapFileError for what is damaged, not a map, of a newer version, or larger than the cap, for parameters that
+/// no map accepts and a kernel that cannot run here. With a page directory std::system_error, as Map::page_to, and
+/// std::length_error for a cap below one tile.
 [[nodiscard]] Map load(const std::filesystem::path& path, const LoadOptions& = {});
 /// @param name what errors call the bytes.
 [[nodiscard]] Map load(std::span<const std::byte>, const LoadOptions& = {}, std::string_view name = "map");

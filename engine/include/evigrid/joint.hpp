@@ -34,7 +34,8 @@ void combine_joint(Rule, std::span<const Planes<const float>> sources, Planes<fl
 class DeferredCells {
  public:
   explicit DeferredCells(std::size_t cells) : cells_(cells) {}
-  /// One more reading of a cell. e + o + u = 1.
+  /// One more reading of a cell. e + o + u = 1, which is not checked. As clear() and read(), throws std::out_of_range
+  /// for a cell that is not there.
   void add(std::size_t cell, double e, double o, double u);
   void clear(std::size_t cell) { cells_.at(cell) = {}; }
   [[nodiscard]] std::size_t size() const noexcept { return cells_.size(); }
@@ -59,12 +60,14 @@ class WindowCells {
  public:
   /// Throws std::invalid_argument unless 1 ≤ depth ≤ 64.
   explicit WindowCells(std::size_t cells, int depth = 5);
+  /// c is dropped. As clear() and count(), throws std::out_of_range for a cell that is not there.
   void add(std::size_t cell, const Mass&);
   void clear(std::size_t cell) { count_.at(cell) = 0; }
   [[nodiscard]] int count(std::size_t cell) const {
     return static_cast<int>(std::min<std::uint64_t>(count_.at(cell), depth_));
   }
-  /// All cells: vacuous where nothing was added. One call of combine() a step, by any rule of two sources.
+  /// All cells: vacuous where nothing was added. One call of combine() a step, by any rule of two sources. Throws as
+  /// it.
   void read(Rule, Planes<float> out, Kernel = Kernel::automatic, Executor* = nullptr) const;
 
  private:

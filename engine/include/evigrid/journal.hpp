@@ -25,6 +25,8 @@ class KeptScan {
  public:
   KeptScan() = default;
   explicit KeptScan(const Scan&);
+  /// ranges_m: counts[0] of sensors[0], then counts[1] of sensors[1] and so on, m. Throws std::invalid_argument for
+  /// fewer of them, std::out_of_range for fewer counts than sensors.
   KeptScan(std::int64_t stamp_ns, const Pose2& T_map_robot, std::vector<SensorId> sensors,
            std::vector<std::uint32_t> counts, std::vector<float> ranges_m);
   KeptScan(KeptScan&&) noexcept = default;
@@ -75,20 +77,21 @@ struct JournalContents {
 [[nodiscard]] bool fits(const JournalContents&, const MapParams&, std::span<const Sensor>);
 
 /// The writer. One thread at a time. Every call returns when the record is with the operating system; of one that
-/// throws nothing is recorded.
+/// throws nothing is recorded. They throw MapFileError when the file cannot be written.
 class Journal {
  public:
   /// A new file for maps with these parameters and sensors. Throws MapFileError when it exists or cannot be written:
   /// then there is none. Its name is brought to the disk.
   static Journal create(const std::filesystem::path& path, const MapParams&, std::span<const Sensor>,
                         JournalOptions = {});
-  /// Goes on behind what was read; a record that was cut short is cut off.
+  /// Goes on behind what was read; a record that was cut short is cut off. Throws MapFileError when the file cannot be
+  /// opened or cut.
   static Journal append(const std::filesystem::path& path, const JournalContents& read, JournalOptions = {});
   ~Journal();
   Journal(Journal&&) noexcept;
   Journal& operator=(Journal&&) noexcept;
 
-  void add(ScanId, const Scan&);
+  void add(ScanId, const Scan&);  ///< std::invalid_argument for a scan of more than 256 MiB
   void remove(ScanId);
   void move(ScanId, const Pose2& T_map_robot);
   void sync();                                         ///< to the disk

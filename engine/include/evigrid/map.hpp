@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The evidential occupancy grid: sparse, tiled, without borders. One writer; const members may run together but never
 // beside the others: who reads while the map fuses reads a view() (view.hpp). Never prints, aborts, or changes a
-// process-wide setting.
+// process-wide setting. Calls throw what stands at them and, unless they are noexcept, std::bad_alloc.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -27,39 +27,44 @@ enum class Likelihood : std::uint8_t { betp, plp };
 std::string_view name(Likelihood) noexcept;
 std::optional<Likelihood> likelihood_from_name(std::string_view) noexcept;
 
-/// Rule bayes alone. A cell's probability of occupied stays within the limits, so that it can still be turned.
+/// Used by the rule bayes alone, checked for all. A cell's probability of occupied stays within the limits, so that it
+/// can still be turned.
 struct BayesParams {
   Likelihood likelihood = Likelihood::betp;
-  double least_p = 0.001, most_p = 0.999;
+  double least_p = 0.001;  ///< [1e-9, 0.5], and below most_p
+  double most_p = 0.999;   ///< [0.5, 1 − 1e-9]
 };
 
+/// Ranges in brackets are what check() accepts.
 struct MapParams {
-  double cell_m = 0.05;               ///< side of a cell
-  Rule rule = Rule::pcr5;             ///< combination rule of the whole map
-  Kernel kernel = Kernel::automatic;  ///< which kernels run
+  double cell_m = 0.05;               ///< side of a cell, m, [1e-4, 100]
+  Rule rule = Rule::pcr5;             ///< combination rule of the whole map, one of map_rules()
+  Kernel kernel = Kernel::automatic;  ///< which kernels run; one that kernel_available() has (combine.hpp)
   bool keep_conflict = true;          ///< a plane with the running sum of k
   bool keep_con = false;              ///< and one with −Σ ln(1 − k); only beside keep_conflict
   bool keep_last_conflict = false;    ///< and one with k of the last update; only beside keep_conflict
   BayesParams bayes{};
-  std::size_t memory_cap_bytes = std::size_t{4}
-                                 << 30;  ///< of the tiles; integrate() throws std::length_error beyond it (or page_to)
+  /// Of the tiles, 16 KiB a plane each. What needs more throws std::length_error, but see page_to().
+  std::size_t memory_cap_bytes = std::size_t{4} << 30;
   /// Filter of false reflections (Li et al. 2014): of three neighbours of a ring, in the order of their bearings, the
-  /// third reading stays when |d3 − d2| < |d1 − d2| + this, m. Below 0: off.
+  /// third reading stays when |d3 − d2| < |d1 − d2| + this, m, [0, 1000]. Below 0: off.
   double false_reflection_m = -1;
-  /// Forgetting: τ, s. A cell keeps exp(−Δt/τ) of its masses, Δt since the last reading that told it something, and
-  /// what it gives up becomes unknown (Shafer's discount, by time). 0: nothing is forgotten. Sensors may have a τ of
-  /// their own (Sensor::decay_s). Cells are read as they are at the last stamp; rules whose cells hold masses only.
-  /// Costs three planes. Discounts in order: the reading's (contextual, then reliability), the cell's by time, then
-  /// they are combined.
+  /// Forgetting: τ, s, 0 or [1e-3, 1e9]. A cell keeps exp(−Δt/τ) of its masses, Δt since the last reading that told it
+  /// something, and what it gives up becomes unknown (Shafer's discount, by time). 0: nothing is forgotten. Sensors may
+  /// have a τ of their own (Sensor::decay_s). Cells are read as they are at the last stamp; rules whose cells hold
+  /// masses only. Costs three planes. Discounts in order: the reading's (contextual, then reliability), the cell's by
+  /// time, then they are combined.
   double decay_s = 0;
 };
+/// Empty when the parameters are valid; every bad field otherwise. Whether the kernel runs here is not asked.
 [[nodiscard]] std::vector<ParamError> check(const MapParams&);
 
 /// How masses become costs of navigation, by BetP. As in ROS map_server, what lies above lethal_above is
 /// occupied and what lies below free_below is free.
 struct Costmap {
-  double free_below = 0.196, lethal_above = 0.65;
-  double max_unknown = 0.9;  ///< cells with m(unknown) above it, never seen ones among them, hold no information
+  double free_below = 0.196, lethal_above = 0.65;  ///< 0 ≤ free_below < lethal_above ≤ 1, which render() checks
+  /// Cells with m(unknown) above it, never seen ones among them, hold no information. From 1 on: all cells hold some.
+  double max_unknown = 0.9;
 };
 /// nav_msgs/OccupancyGrid: −1 no information, 0 free, 100 occupied, 1 … 99 linear in BetP between.
 [[nodiscard]] std::int8_t occupancy_of(const Costmap&, const Mass&) noexcept;
@@ -91,12 +96,12 @@ class Map {
   Map& operator=(Map&&) noexcept;
 
   /// Declares a sensor. Throws std::invalid_argument naming every bad field, a rule that cannot fuse its model, or a
-  /// reach of too many cells.
+  /// max_range_m of more than 65 536 cells.
   SensorId add(const Sensor&);
 
   /// Fuses scans in the order given. A scan that cannot be used is counted in the report; no cell is half updated.
   /// Throws std::length_error at the memory cap and std::system_error when a page file cannot be written, before any
-  /// cell is changed.
+  /// cell is changed. After a std::bad_alloc scans may be in some tiles and not in others.
   Report integrate(const Scan&);
   Report integrate(std::span<const Scan>);
 
@@ -125,7 +130,7 @@ class Map {
   /// Smallest box around all non-vacuous cells.
   [[nodiscard]] CellRect bounds() const;
   /// Writes rect row by row, smallest y first, into out; row r starts at out[r·stride]. stride counts floats.
-  /// Throws std::invalid_argument when out is too short.
+  /// Throws std::invalid_argument when out is too short, stride below the width, or rect reaches beyond 2^60 cells.
   void render(Layer, CellRect rect, std::span<float> out, std::ptrdiff_t stride, const ReadOutParams& = {}) const;
   /// The same with occupancy_of each cell. Throws std::invalid_argument too when not 0 ≤ free_below < lethal_above ≤ 1.
   void render(const Costmap&, CellRect rect, std::span<std::int8_t> out, std::ptrdiff_t stride) const;
@@ -151,23 +156,29 @@ class Map {
   /// error. They are read there by everybody, views among them, and come back when something writes to them; no bit
   /// changes. The file has no name and goes with the process. What one call writes to must fit under the cap. Throws
   /// std::system_error naming the directory where the file cannot be made (or, from the calls that need room,
-  /// written: before any cell is changed), std::logic_error when tiles are in such a file already. As with swap, a
-  /// disk that fails to give back what it holds ends the process (SIGBUS). Linux.
+  /// written: before any cell is changed), std::logic_error when tiles are in such a file already, and
+  /// std::invalid_argument where a tile is no whole number of the system's pages. As with swap, a disk that fails to
+  /// give back what it holds ends the process (SIGBUS). Linux; elsewhere it throws.
   void page_to(const std::filesystem::path& directory);
   [[nodiscard]] std::size_t paged_bytes() const noexcept;  ///< of tiles in the page file; memory_bytes() has the others
 
+  /// All cells and the last stamp go; parameters, sensors, window and protected areas stay.
   void clear();
-  /// The cells of rect are as never seen, protected or not; tiles without any other cell are given back.
+  /// The cells of rect are as never seen, protected or not; tiles without any other cell are given back. Throws
+  /// std::invalid_argument for a rect beyond 2^60 cells; where a tile that a view holds, or that was paged out, is
+  /// cleared in part, as integrate(), before any cell is changed.
   void clear(CellRect rect);
 
   /// Rolling window: the map keeps the tiles of 64 × 64 cells that meet it, drops the others, and readings write
   /// nothing outside until it moves on. A shift costs the window's rows of tiles and what it drops, not the map. An
-  /// empty rectangle: no window.
+  /// empty rectangle: no window. Throws std::invalid_argument for one that reaches beyond 2^60 cells.
   void set_window(CellRect window);
 
   /// No reading changes these cells any more, no undo and no decay: they keep what they hold now, a map that was
   /// loaded, a room that is known. Whoever calls clear(), write() or merge() means it, and does. Reports still count
-  /// the updates that were kept off in tiles that are protected in part. Costs readings nothing elsewhere.
+  /// the updates that were kept off in tiles that are protected in part. Costs readings nothing elsewhere. Throws
+  /// std::invalid_argument for an area beyond 2^60 cells; in maps that forget as integrate(), and is then not
+  /// protected.
   void protect(CellRect area);
   void unprotect();  ///< all areas
   [[nodiscard]] std::span<const CellRect> protected_areas() const noexcept;
@@ -175,14 +186,18 @@ class Map {
   /// Says what is known without a sensor: the cells of rect get these masses, row by row from the smallest y, row r at
   /// masses[r·stride], and no history of conflict. A vacuous mass forgets the cell. In maps that
   /// forget, what is written fades only after a reading came to it. Under rules that keep no masses the
-  /// cell is as after one source with that mass. Throws std::invalid_argument naming the cell whose mass the rule
-  /// cannot hold, or when masses is too short; std::length_error at the memory cap, before any cell is changed.
+  /// cell is as after one source with that mass. A mass has parts within [0, 1] that add up to 1 within 1e-5 (fuzzy:
+  /// memberships, which need not), c above 0 only where keeps_paradox(rule). Throws std::invalid_argument naming the
+  /// cell whose mass is none, when masses is too short or stride below the width, and for a rect beyond 2^60 cells; and
+  /// as integrate(), before any cell is changed.
   void write(CellRect rect, std::span<const Mass> masses, std::ptrdiff_t stride);
   /// A prior map as nav_msgs/OccupancyGrid has it: −1 leaves the cell alone, 0 … 100 is P(occupied) in percent, taken
-  /// as m(occupied) = P·certainty, m(empty) = (1 − P)·certainty. Throws std::invalid_argument for other values.
+  /// as m(occupied) = P·certainty, m(empty) = (1 − P)·certainty, certainty in (0, 1]. Throws as above, and
+  /// std::invalid_argument for other values.
   void write(CellRect rect, std::span<const std::int8_t> occupancy, std::ptrdiff_t stride, double certainty);
   /// One mass in all cells whose centres lie in a convex polygon of frame M, its corners in either sense, e.g. a
-  /// robot's footprint. Throws as above, and for fewer than three corners or one that is not finite.
+  /// robot's footprint. Throws as above, and std::invalid_argument for fewer than three corners or one that is not
+  /// within 2^50 cells of the origin.
   void write(std::span<const Point2> polygon, const Mass&);
   [[nodiscard]] const MapParams& params() const noexcept;
   [[nodiscard]] std::span<const Sensor> sensors() const noexcept;

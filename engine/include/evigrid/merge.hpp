@@ -11,7 +11,7 @@
 namespace EVIGRID_API evigrid {
 
 struct MergeOptions {
-  Pose2 T_into_from{};     ///< takes coordinates of `from` to those of `into`
+  Pose2 T_into_from{};     ///< takes coordinates of `from` to those of `into`; within 2^50 cells and 1e5 rad
   double reliability = 1;  ///< Shafer discount of all that `from` says, in (0, 1]
 };
 
@@ -30,8 +30,9 @@ struct MergeReport {
 /// centre of each cell of `into`, the cell of `from` that it falls in: none is read between cells, and thin walls may
 /// lose or double a cell. Sums of conflict add up, k of the merge among them. Areas outside the window of `into` are
 /// left out; protected areas are merged into. `from` may have another rule: its masses are taken. Throws
-/// std::invalid_argument for cells of another size, a pose that is not finite, a reliability outside (0, 1], or masses
-/// that the rule of `into` cannot hold; std::length_error at the memory cap, before any cell is changed.
+/// std::invalid_argument for cells of another size, options outside their ranges, memberships (fuzzy) beside masses, or
+/// masses that the rule of `into` cannot hold; std::length_error at the memory cap and std::system_error when a page
+/// file cannot be written, before any cell is changed.
 MergeReport merge(Map& into, const MapView& from, const MergeOptions& = {});
 
 }  // namespace evigrid

@@ -41,6 +41,7 @@ std::span<const Layer> all_layers() noexcept;
 std::string_view name(Layer) noexcept;
 std::optional<Layer> layer_from_name(std::string_view) noexcept;
 
+/// Not checked.
 struct ReadOutParams {
   double dsmp_epsilon = 1e-3;   ///< ≥ 0; dsmp
   double betp_at_least = 0.65;  ///< in [½, 1]; decision_betp: what is less sure either way is rejected

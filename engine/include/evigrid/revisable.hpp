@@ -22,7 +22,7 @@ namespace EVIGRID_API evigrid {
 struct RevisableOptions {
   /// A scan at most this much older than the newest is put in its place by its stamp (equal stamps: as they came): the
   /// map is that of the sorted log. An older one is fused where it comes, as Map does, and counted; it stays there, and
-  /// those that come after it are sorted as if it were not. 0: none is sorted.
+  /// those that come after it are sorted as if it were not. 0 or less: none is sorted.
   std::int64_t reorder_ns = 0;
   /// A view is kept every so many scans (and four times a reorder window), so that a change need not begin with the
   /// first scan; the oldest go. They hold copies of tiles that changed since: memory for time. 0: none.
@@ -34,8 +34,10 @@ struct ScanPose {
   Pose2 T_map_robot{};
 };
 
-/// A call that throws std::length_error at the memory cap, or because its journal cannot be written, was not done: map,
-/// scans and journal are as they were. Of a call with many scans the first may have been done; scans() says so.
+/// Calls that change the map throw std::length_error and std::system_error as Map::integrate, MapFileError when the
+/// journal cannot be written, and std::invalid_argument for a scan of more than 256 MiB beside a journal. Such a call
+/// was not done: map, scans and journal are as they were (but for the map of a rebuild() whose page file fails on the
+/// way). Of a call with many scans the first may have been done; scans() says so.
 class RevisableMap {
  public:
   /// What became of a scan.
@@ -60,9 +62,9 @@ class RevisableMap {
   RevisableMap& operator=(RevisableMap&&) noexcept;
 
   /// Where a run that ended, in whatever way, left off: what its journal holds, fused once, and recorded on.
-  /// `dropped`: bytes of the record that was being written when it ended. Throws MapFileError, and as Map::page_to
-  /// where a page directory is given. std::invalid_argument for a region: what lies outside would be missing as soon as
-  /// a scan comes.
+  /// `dropped`: bytes of the record that was being written when it ended. Throws MapFileError, std::length_error and
+  /// std::system_error as Map::integrate, and as Map::page_to where a page directory is given. std::invalid_argument
+  /// for a region: what lies outside would be missing as soon as a scan comes.
   static RevisableMap resume(const std::filesystem::path& journal, const LoadOptions& = {}, RevisableOptions = {},
                              JournalOptions = {}, std::uint64_t* dropped = nullptr);
 

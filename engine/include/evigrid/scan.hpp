@@ -18,23 +18,23 @@ namespace EVIGRID_API evigrid {
 /// range, −inf = too close, NaN = invalid.
 struct Reading {
   SensorId sensor = 0;
-  std::span<const float> ranges_m;  ///< read during the call alone
+  std::span<const float> ranges_m;  ///< m; read during the call alone
 };
 
 struct Scan {
   std::int64_t stamp_ns = 0;  ///< of any epoch, the same for all scans of a map
-  Pose2 T_map_robot{};
+  Pose2 T_map_robot{};        ///< within 2^50 cells of the origin and 1e5 rad, else its ranges are refused
   std::span<const Reading> readings;
 };
 
 /// Why a range was not used. Each is counted, none is silent.
 enum class Refusal : std::uint8_t {
   not_a_number,      ///< NaN
-  too_close,         ///< −inf, or below the sensor's min_range_m
+  too_close,         ///< −inf, 0, or below the sensor's min_range_m
   negative,          ///< below zero
   no_return,         ///< +inf, or at least the sensor's no_return_m
   above_max_range,   ///< a cone's reading beyond its max_range_m
-  wrong_beam_count,  ///< a fan's reading with another number of ranges than declared (counted once)
+  wrong_beam_count,  ///< a reading with another number of ranges than Sensor::beams (counted once)
   unknown_sensor,    ///< a sensor that was never added (counted once)
   pose_not_finite,   ///< the scan's pose, or one too far away to index (every range counted)
   false_reflection,  ///< a cone's reading that leaves its neighbours too far (MapParams::false_reflection_m)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sensor is declared once: its model with parameters, its mount, aperture, limits and reliability. A sonar is one
-// cone; a laser scanner is one sensor with many beams. Ranges in brackets are what check() accepts. "The book": Li, Huang
-// & Dezert, chapter 14 of Smarandache & Dezert (eds.), Advances and Applications of DSmT for Information Fusion, vol. 2,
-// 2006.
+// cone; a laser scanner is one sensor with many beams. Ranges in brackets are what check() accepts; of the models'
+// parameters it looks at those of the sensor's own model. "The book": Li, Huang & Dezert 2006 (docs/references.md).
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -32,8 +31,8 @@ struct Oriolo1997 {
 
 /// li2006 (the book, eq. 14.6–14.10).
 struct Li2006 {
-  double rho_v = 1;                ///< ρv, 1/m²: sharpness of m(occupied), larger where there are few objects, [0.01, 100]
-  double epsilon_m = 0.10;         ///< ε: range error, [0, 2] (ours)
+  double rho_v = 1;         ///< ρv, 1/m²: sharpness of m(occupied), larger where there are few objects, [0.01, 100]
+  double epsilon_m = 0.10;  ///< ε: range error, [0, 2] (ours)
   bool discount_by_lambda = true;  ///< divide by the sum, then discount by λ; false: as printed, λ cancels
 };
 
@@ -68,7 +67,7 @@ struct Li2014 {
 /// beam: laser range finder (ours).
 struct Beam {
   double empty = 0.6, occupied = 0.8;   ///< masses at d = 0, [0, 1]; both fall linearly to half at max_range_m
-  double empty_margin_m = 0.15;         ///< empty where d < R − empty_margin_m, [0, 10]
+  double empty_margin_m = 0.15;         ///< empty where d < R − this, [0, 10], at least occupied_half_width_m
   double occupied_half_width_m = 0.10;  ///< occupied where |d − R| ≤ this, [0, 10]
 };
 
@@ -86,29 +85,36 @@ struct RevisionNetwork;  // evigrid/revision.hpp
 
 struct Sensor {
   Model model = Model::li2014;
-  Pose2 T_robot_sensor{};           ///< mount; a cone looks along its x axis
+  Pose2 T_robot_sensor{};           ///< mount, [−1e4, 1e4] m and [−1e3, 1e3] rad; a cone looks along its x axis
   double aperture_rad = 0.4363323;  ///< full opening of a cone (25°), [0.0087, 0.7]; unused by a fan
-  double min_range_m = 0.1;         ///< nearer readings are refused and nearer cells are left alone
-  double max_range_m = 5.0;         ///< cone: farther readings are refused. fan: they clear up to it
-  double no_return_m = 1000.0;      ///< readings at or above it mean "no echo": refused, or cleared on request
-  bool clear_no_return = false;     ///< "no echo" clears up to max_range_m (fans only)
-  double reliability = 1.0;         ///< Shafer discount of every reading, in (0, 1]
-  /// Contextual discount before it, in (0, 1]: reliability where the cell is empty (what m(occupied) keeps), and where
+  /// Nearer readings are refused and nearer cells are left alone: [0, 1e4] m, li2006 and li2014 [1e-3, 1e4] (they
+  /// divide by R), and below max_range_m.
+  double min_range_m = 0.1;
+  /// Cone: farther readings are refused. Fan: they clear up to it. [1e-3, 1e4] m, and at most 65 536 cells of the map.
+  double max_range_m = 5.0;
+  /// Readings from it on mean "no echo": refused, or cleared on request. [1e-3, 1e300] m.
+  double no_return_m = 1000.0;
+  bool clear_no_return = false;  ///< "no echo" clears up to max_range_m (fans only)
+  double reliability = 1.0;      ///< Shafer discount of every reading, [1e-6, 1]
+  /// Contextual discount before it, [1e-6, 1]: reliability where the cell is empty (what m(occupied) keeps), and where
   /// it is occupied (what m(empty) keeps).
   double reliability_if_empty = 1.0, reliability_if_occupied = 1.0;
-  /// What this sensor says is forgotten with this τ, s, in maps that forget (MapParams::decay_s, which 0 means): a cell
-  /// ages at the rate of the sensor that told it something last.
+  /// What this sensor says is forgotten with this τ, s, in maps that forget: 0, which means MapParams::decay_s, or
+  /// [1e-3, 1e9]. A cell ages at the rate of the sensor that told it something last. Above 0 only where readings are
+  /// independent.
   double decay_s = 0;
   /// In maps whose cells hold masses only. All but independent make the scan's readings one source a cell, which meets
   /// the cell after the scan's independent readings; mass on empty ∩ occupied is given up before.
   Dependence dependence = Dependence::independent;
-  double weight_exponent = 1;  ///< γ in (0, 1] of weighted: 1 is Dempster's rule within the scan, 1/n the mean of n
-  /// A learned revision of what a model of masses says where it says anything, after the discounts, which it replaces: a
-  /// trained sensor has a reliability of 1. In maps whose cells hold masses only, of cones; an unfused, slower path.
+  /// γ of weighted, [1e-3, 1]: 1 is Dempster's rule within the scan, 1/n the mean of n. 1 for the other policies.
+  double weight_exponent = 1;
+  /// A learned revision of what a model of masses says where it says anything, after the discounts, which it replaces:
+  /// a trained sensor has a reliability of 1. In maps whose cells hold masses only, of cones; an unfused, slower path.
+  /// Weights within ±RevisionNetwork::kMostWeight.
   std::shared_ptr<const RevisionNetwork> revision{};
-  int beams = 1;               ///< number of ranges in one reading; > 1 only for a fan
-  double first_beam_rad = 0;   ///< bearing of beam 0 in S, counter-clockwise
-  double beam_step_rad = 0;    ///< bearing from one beam to the next
+  int beams = 1;              ///< number of ranges in one reading: 1 for a cone, [1, 100 000] for a fan
+  double first_beam_rad = 0;  ///< of a fan: bearing of beam 0 in S, counter-clockwise, [−10, 10]
+  double beam_step_rad = 0;   ///< of a fan: bearing from one beam to the next, [5e-4, 0.6]; times beams at most 2π
   Hughes1992 hughes{};
   Oriolo1997 oriolo{};
   Li2006 li2006{};
@@ -148,8 +154,8 @@ struct ModelMass {
 };
 /// probability: e = 1 − P, o = P. fuzzy, moravec1985: e and o are memberships, u = (1 − e)(1 − o), c = e·o.
 /// @param range_m reading; @param distance_m, theta_rad the point, from the sensor and off its axis.
-/// @param cell_m side of the cells; only moravec1985, whose occupied membership is shared by the cells of the arc,
-/// asks. Outside the support of the model the answer is vacuous. Throws std::invalid_argument for a bad sensor.
+/// @param cell_m side of the cells, above 0; only moravec1985, whose occupied membership is shared by the cells of the
+/// arc, asks. Outside the support of the model the answer is vacuous. Throws std::invalid_argument for a bad sensor.
 [[nodiscard]] ModelMass evaluate(const Sensor&, double range_m, double distance_m, double theta_rad,
                                  double cell_m = 0.01);
 
