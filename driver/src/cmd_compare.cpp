@@ -7,6 +7,7 @@
 #include "bag/frame_options.hpp"
 #include "commands.hpp"
 #include "compare/compare.hpp"
+#include "error.hpp"
 
 namespace evigrid::driver {
 namespace {
@@ -64,6 +65,7 @@ void add_compare(CLI::App& app) {
     args->options.rules = args->rules == "all" ? split_list(different_map_rule_names()) : split_list(args->rules);
     args->options.models = args->models == "all" ? split_list(model_names()) : split_list(args->models);
     args->options.robots = split_list(args->robots);
+    if (!args->robots.empty() && args->options.robots.empty()) throw InputError("--robots: names no robot");
     compare(args->options);
   });
 }

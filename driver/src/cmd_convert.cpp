@@ -8,7 +8,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 
 #include "commands.hpp"
 #include "error.hpp"
@@ -61,9 +60,8 @@ void write(const Map& map, const CellRect& rect, std::int64_t stamp_ns, const Ar
   if (format) {
     return export_map({map, rect, stamp_ns, args.in, fmt::format("{:016x}", map.hash())}, *format, args.to.options, to);
   }
-  std::ostringstream bytes;  // write_file() follows links and leaves devices and pipes in their place
-  save(map, bytes);
-  write_file(to, bytes.view());
+  // save() by path would replace links, devices and pipes.
+  write_file_by(to, [&](std::ostream& file) { save(map, file); });
   std::cout << fmt::format("{}: {} tiles, {}, cell {:g} m, map hash {:016x}\n", to, map.tiles(),
                            name(map.params().rule), map.params().cell_m, map.hash());
 }

@@ -32,7 +32,7 @@ MapJournal::MapJournal(const JournalFile& file, const Map& map, std::span<const 
     if (!file.resume) {
       std::error_code ignored;
       if (std::filesystem::exists(path_, ignored))
-        throw InputError(fmt::format("--journal: {} is there already; --resume goes on with it", path_));
+        throw InputError(fmt::format("--journal: {} exists already; --resume goes on with it", path_));
       journal_ = Journal::create(path_, map.params(), map.sensors());
       return;
     }

@@ -208,7 +208,7 @@ TEST_F(BadInput, FoldersAndMissingFilesByName) {
   expect_refused({"run", "-o", out, "--world", folder}, ": is no file");
   expect_refused({"show", none}, "none: cannot be opened: No such file");
   expect_refused({"cycle", "--replay", folder}, "is a folder");
-  expect_map_refused(good, "good.log is there already; --resume", {"--journal", good});
+  expect_map_refused(good, "good.log exists already; --resume", {"--journal", good});
 }
 TEST_F(BadInput, OddNumbersAndOptionsWithoutUse) {
   expect_refused({"model", "li2014", "--reading", "1", "--at", "nan,0"}, "--at: 'nan,0'");

@@ -110,6 +110,7 @@ TEST(Compare, BadWordsAreNamed) {
   refused({"default", "--models", "foo"}, "foo");
   refused({"default", "--rules", ","}, "--rules");
   refused({"default", "--robots", "foo"}, "foo");
+  refused({"default", "--robots", ","}, "--robots: names no robot");
   refused({dir.at("missing.log")}, "missing.log");
   refused({"default", "--world", "building"}, "--world");
 }
