@@ -56,7 +56,7 @@ class CellsOnDevice : public OnDevice {
  protected:
   Map watched(const MapParams& params) {
     log = {};
-    Map map(params, make_tbb_executor(2));
+    Map map(params, make_spinning_executor(2));  // which the thread sanitizer sees
     MapAccess::use_device(map, std::make_unique<DeviceMap>(std::make_unique<Watched>(make_device(GetParam()), log)));
     return map;
   }
